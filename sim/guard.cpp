@@ -16,9 +16,11 @@ double error_m(const Guard& guard, const GuardedBall& ball, double t_s) {
 double place_at(const Guard& guard, double start_x_m, const GuardedBall& ball, const Misjudgement& misjudged,
                 double until_s) {
   double x_m = start_x_m, v_mps = 0.0;
-  for (double t_s = guard.reaction_s; t_s < until_s; t_s += kStep_s) {
+  for (double t_s = misjudged.guessed_m ? 0.0 : guard.reaction_s; t_s < until_s; t_s += kStep_s) {
     const double dt_s = std::min(kStep_s, until_s - t_s);
-    const double way_m = ball.crossing.x_m + misjudged.sideways * error_m(guard, ball, t_s) - x_m;
+    const double aim_m =
+        misjudged.guessed_m.value_or(ball.crossing.x_m + misjudged.sideways * error_m(guard, ball, t_s));
+    const double way_m = aim_m - x_m;
     const double fastest_mps =
         std::min({guard.speed_mps, std::sqrt(2.0 * guard.acceleration_mps2 * std::abs(way_m)), std::abs(way_m) / dt_s});
     const double change_mps = guard.acceleration_mps2 * dt_s;
@@ -43,8 +45,8 @@ bool guard_stops(const Guard& guard, const Extension& extension, double start_x_
   if (decided_s >= guard.reaction_s) {
     const double error = error_m(guard, ball, decided_s);
     const double bottom_m = ball.crossing.z_m + misjudged.upwards * error - ball.radius_m;
-    const double side_m =
-        ball.crossing.x_m + misjudged.sideways * error - place_at(guard, start_x_m, ball, misjudged, decided_s);
+    const double side_m = misjudged.guessed_m.value_or(ball.crossing.x_m + misjudged.sideways * error) -
+                          place_at(guard, start_x_m, ball, misjudged, decided_s);
     if (bottom_m > top_m - guard.overlap_m) {
       top_m += extension.up_m;
     } else {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sim/scenario.hpp"
 #include "sim/truth.hpp"
 
@@ -9,6 +11,7 @@ namespace trivela::sim {
 struct Misjudgement {
   double sideways = 0.0;
   double upwards = 0.0;
+  std::optional<double> guessed_m{};  ///< where it drives as the ball leaves, whatever the ball does; none: it looks
 };
 
 /// A guard's frame, pushed out to one side or up. All 0: it has none.

@@ -295,7 +295,9 @@ TrueState Match::true_state() const {
                   .lever_kind = s.world.kicker().lever_kind(s.world.t_ns()),
                   .opponent_distance_m = s.challenger().distance_m(),
                   .opponent_closing_mps = s.challenger().closing_mps(),
-                  .keeper_x_m = s.scenario.keeper.enabled ? kicking::Maybe(0.0) : std::nullopt,
+                  .keeper_x_m = s.scenario.keeper.enabled
+                                    ? kicking::Maybe(keeper_place(s.scenario, s.world.ball_m()).x_m)
+                                    : std::nullopt,
                   .dispute_t_ns = s.dispute_t_ns};
   for (const OpponentBody& body : s.world.opponents().all())
     state.opponents[state.opponent_count++] = {{body.position().x_m, body.position().y_m}, body.closing_mps(), 0.0};

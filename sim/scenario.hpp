@@ -131,6 +131,8 @@ struct Keeper {
   double side_extension_m = 0.08;  ///< of a frame that it pushes out to one side ...; assumption: 60 x 60 x 90 cm
   double up_extension_m = 0.1;     ///< ... or up, one at a time; assumption, the same
   double extension_s = 0.1;        ///< until the frame is out; assumption
+  double advance_m = 0.0;  ///< it stands so far before the goal line, on the line from the ball to the goal's middle
+  double guess_m = 0.0;    ///< as the ball leaves it drives so far to a side drawn by lot; 0: it waits and looks
 };
 
 /// Opponents that stand before their goal and stop what comes low. Off in most worlds.

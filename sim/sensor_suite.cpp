@@ -167,10 +167,10 @@ void SensorSuite::see_further(const Snapshot& seen, VisionFrame& frame) const {
   }
 }
 
-/// It stands in the middle of its line until a ball comes.
 std::optional<PlanPoint> SensorSuite::keeper(const Snapshot& seen, double luck) const {
   const Vision& v = scenario_.vision;
-  const PlanPoint there = in_robot(seen.pose, seen.axis, 0.0, scenario_.field.goal_line_y_m);
+  const PlanPoint place = keeper_place(scenario_, seen.ball);
+  const PlanPoint there = in_robot(seen.pose, seen.axis, place.x_m, place.y_m);
   if (luck < v.dropout_ratio || length(there) > v.opponent_range_m) return std::nullopt;
   const auto [x, y, unused, more] = draws_.normals(kicking::Role::kKeeperSight, cycle_);
   return PlanPoint{there.x_m + v.opponent_sd_m * x, there.y_m + v.opponent_sd_m * y};

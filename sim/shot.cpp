@@ -55,6 +55,8 @@ void Shot::step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
   farthest_y_m_ = std::max(farthest_y_m_, ball_.position_m.y());
   if (scenario_.defenders.count > 0.0) meet_defenders(before, before_t_ns, dt_s);
   if (result_) return;
+  if (scenario_.keeper.enabled && scenario_.keeper.advance_m > 0.0) meet_keeper_before_line(before, before_t_ns, dt_s);
+  if (result_) return;
   if (ball_.position_m.y() >= scenario_.field.goal_line_y_m) {
     double until_s = dt_s;
     ball_ = at_line(before, scenario_.field.goal_line_y_m, dt_s, until_s);
@@ -98,8 +100,8 @@ void Shot::meet_goal_plane(std::int64_t t_ns) {
   const Crossing crossing{ball_.position_m.x(), ball_.position_m.z()};
   const auto outcome = kicking::classify(crossing.x_m, crossing.z_m, goal, ball);
   const double margin = std::min(sim::margin_m(crossing, goal, ball), reach_y_m(ball_, scenario_.ball));
-  const bool saved =
-      outcome == kicking::Outcome::kOnTarget && keeper_has(crossing, kicking::seconds(t_ns - release_t_ns_));
+  const bool saved = outcome == kicking::Outcome::kOnTarget && scenario_.keeper.advance_m == 0.0 &&
+                     keeper_has(crossing, kicking::seconds(t_ns - release_t_ns_));
   result_ = ShotResult{t_ns, outcome, crossing, margin, saved, touched_floor(ball_)};
   if (saved || outcome == kicking::Outcome::kPost || outcome == kicking::Outcome::kBar) {
     const double kept = saved ? scenario_.ball.body_restitution_ratio : scenario_.ball.frame_restitution_ratio;
@@ -112,8 +114,54 @@ bool Shot::keeper_has(const Crossing& crossing, double flown_s) const {
   const Keeper& keeper = scenario_.keeper;
   if (!keeper.enabled) return false;
   const auto noise = draws_.normals(kicking::Role::kKeeper, 0);
-  return guard_stops(keeper.guard, {keeper.side_extension_m, keeper.up_extension_m, keeper.extension_s}, 0.0,
-                     {crossing, flown_s, scenario_.ball.radius_m}, {noise[0], noise[1]});
+  const double stands_m = keeper_place(scenario_, released_.position_m).x_m;
+  Misjudgement misjudged{noise[0], noise[1]};
+  if (keeper.guess_m > 0.0) misjudged.guessed_m = stands_m + std::copysign(keeper.guess_m, noise[2]);
+  return guard_stops(keeper.guard, {keeper.side_extension_m, keeper.up_extension_m, keeper.extension_s}, stands_m,
+                     {crossing, flown_s, scenario_.ball.radius_m}, misjudged);
+}
+
+/// What the ball would come to if nobody stood in its way; none: not into the goal.
+std::optional<ShotResult> Shot::would_go_in(BallMotion ball) const {
+  constexpr double kFurther_s = 0.02;
+  const double goal_y_m = scenario_.field.goal_line_y_m;
+  for (double t_s = 0.0; t_s < scenario_.possession.flight_limit_s && !at_rest(ball); t_s += kFurther_s) {
+    const BallMotion before = ball;
+    sim::advance(ball, scenario_.ball, kFurther_s);
+    if (ball.position_m.y() < goal_y_m) continue;
+    const double way_m = ball.position_m.y() - before.position_m.y();
+    ball = before;
+    sim::advance(ball, scenario_.ball, kFurther_s * (goal_y_m - before.position_m.y()) / way_m);
+    const kicking::Goal goal = goal_of(scenario_.field);
+    const kicking::Ball size = ball_of(scenario_.ball);
+    const Crossing crossing{ball.position_m.x(), ball.position_m.z()};
+    if (kicking::classify(crossing.x_m, crossing.z_m, goal, size) != kicking::Outcome::kOnTarget) return std::nullopt;
+    const double margin = std::min(sim::margin_m(crossing, goal, size), reach_y_m(ball, scenario_.ball));
+    return ShotResult{0, kicking::Outcome::kOnTarget, crossing, margin, true, touched_floor(ball)};
+  }
+  return std::nullopt;
+}
+
+void Shot::meet_keeper_before_line(const BallMotion& before, std::int64_t before_t_ns, double dt_s) {
+  const double line_y_m = scenario_.field.goal_line_y_m - scenario_.keeper.advance_m;
+  if (before.position_m.y() >= line_y_m || ball_.position_m.y() < line_y_m) return;
+  double until_s = dt_s;
+  const BallMotion there = at_line(before, line_y_m, dt_s, until_s);
+  const std::int64_t t_ns = before_t_ns + kicking::nanoseconds(until_s);
+  const Crossing passes{there.position_m.x(), there.position_m.z()};
+  if (!keeper_has(passes, kicking::seconds(t_ns - release_t_ns_))) return;
+  result_ = would_go_in(there);
+  if (!result_) return;
+  result_->t_ns = t_ns;
+  ball_ = there;
+  ball_.velocity_mps.y() *= -scenario_.ball.body_restitution_ratio;
+  sim::advance(ball_, scenario_.ball, dt_s - until_s);
+}
+
+PlanPoint keeper_place(const Scenario& scenario, const Eigen::Vector3d& ball_m) {
+  const double goal_y_m = scenario.field.goal_line_y_m, advance_m = scenario.keeper.advance_m;
+  if (advance_m == 0.0) return {0.0, goal_y_m};
+  return {ball_m.x() * advance_m / std::max(goal_y_m - ball_m.y(), advance_m), goal_y_m - advance_m};
 }
 
 PlanPoint defender_place(const Scenario& scenario, const kicking::Draws& draws, const Eigen::Vector3d& ball_m,

@@ -28,8 +28,9 @@ struct ShotResult {
 
 /// A released ball on its way to the goal. The goal frame is flat, in the plane of the goal line: what counts is where
 /// the centre passes it. Post and bar throw the ball back, an opponent's body (a cylinder) turns it away; the first
-/// thing met decides. A keeper stands in the middle of the goal line, defenders on theirs before it; what they stop
-/// sim/guard.hpp says. A ball that a defender stops is blocked.
+/// thing met decides. A keeper stands at keeper_place(), defenders on their line; what they stop sim/guard.hpp says. A
+/// ball that a defender stops is blocked. A keeper before its line stops only what would go in: it is on target, and
+/// its crossing is where it would have gone.
 class Shot {
  public:
   /// `scenario` must outlive the shot. `draws`: where defenders stand and what they and the keeper mistake.
@@ -50,6 +51,8 @@ class Shot {
   BallMotion at_line(const BallMotion& before, double line_y_m, double dt_s, double& until_s) const;
   void meet_goal_plane(std::int64_t t_ns);
   bool keeper_has(const Crossing& crossing, double flown_s) const;
+  void meet_keeper_before_line(const BallMotion& before, std::int64_t before_t_ns, double dt_s);
+  std::optional<ShotResult> would_go_in(BallMotion ball) const;
   void meet_defenders(const BallMotion& before, std::int64_t before_t_ns, double dt_s);
   void block(std::int64_t t_ns);
   bool passes(const PlanPoint& opponent, double dt_s) const;
@@ -65,6 +68,10 @@ class Shot {
   double farthest_y_m_;
   std::optional<ShotResult> result_;
 };
+
+/// Where the keeper stands while the ball is at `ball_m`: `advance_m` before the goal line, between the ball and the
+/// goal's middle.
+PlanPoint keeper_place(const Scenario& scenario, const Eigen::Vector3d& ball_m);
 
 /// Where defender `i` stands when a ball is shot from `ball_m`: where the line from the ball to the goal's middle
 /// crosses theirs, give or take its spread.

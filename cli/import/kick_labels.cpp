@@ -59,18 +59,21 @@ msg::Policy policy_of(const std::string& name) {
 }
 
 void set_outcome(KickLabel& kick, const std::string& word) {
-  if (word != "inside" && word != "outside") {
+  const bool goal = word == "goal", saved = word == "saved";
+  if (goal || saved) kick.saved = saved;
+  if (!goal && !saved && word != "inside" && word != "outside") {
     const auto outcome = bus::from_label<msg::Outcome>(word);
     if (!outcome || word == "on_target") {
       throw CellError("outcome", word,
-                      "is none of inside, outside, unknown, wide_left, wide_right, over, short, post, bar, blocked");
+                      "is none of goal, saved, inside, outside, unknown, wide_left, wide_right, over, short, post, bar, "
+                      "blocked");
     }
     kick.outcome = *outcome;
     kick.outside = *outcome != msg::OUTCOME_UNKNOWN;
     return;
   }
-  kick.outcome = word == "inside" ? msg::OUTCOME_ON_TARGET : msg::OUTCOME_UNKNOWN;
   kick.outside = word == "outside";
+  kick.outcome = kick.outside ? msg::OUTCOME_UNKNOWN : msg::OUTCOME_ON_TARGET;
 }
 
 int whole_in(const config::Row& row, const char* column, int low, int high, int otherwise) {

@@ -63,8 +63,10 @@ msg::KickOutcome outcome_of(const KickLabel& label) {
   for (double* const unknown : {&outcome.x_cross_m, &outcome.z_cross_m, &outcome.sd_cross_m, &outcome.exit_speed_mps,
                                 &outcome.exit_elevation_rad, &outcome.p_on_target, &outcome.p_wide_left,
                                 &outcome.p_wide_right, &outcome.p_over, &outcome.p_short, &outcome.p_post,
-                                &outcome.p_bar, &outcome.p_blocked, &outcome.residual_sd_m, &outcome.release_late_s})
+                                &outcome.p_bar, &outcome.p_blocked, &outcome.residual_sd_m, &outcome.release_late_s,
+                                &outcome.p_saved})
     *unknown = msg::kNone;
+  if (label.saved) outcome.p_saved = *label.saved ? 1.0 : 0.0;
   if (label.outside && label.outcome == msg::OUTCOME_UNKNOWN) outcome.p_on_target = 0.0;
   return outcome;
 }
@@ -97,8 +99,8 @@ void add_import_kicks(CLI::App& verb, int& exit_code) {
   const auto arguments = std::make_shared<KicksArguments>();
   subcommand
       ->add_option("csv", arguments->csv,
-                   "Columns time (seconds, m:ss or h:mm:ss of the video, may be empty), policy, outcome (inside, "
-                   "outside, unknown, or why it missed), by; if noted half, robot")
+                   "Columns time (seconds, m:ss or h:mm:ss of the video, may be empty), policy, outcome (goal, saved, "
+                   "inside, outside, unknown, or why it missed), by; if noted half, robot")
       ->required()
       ->type_name("CSV");
   subcommand->add_option("--out", arguments->out, "Match log to make, must not exist")->required()->type_name("DB");

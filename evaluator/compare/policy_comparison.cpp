@@ -15,15 +15,11 @@
 namespace trivela::evaluator {
 namespace {
 
-Ending past_keeper(Ending ending, bool goal) {
-  return goal ? Ending::kInside : ending == Ending::kNoKick ? ending : Ending::kOutside;
-}
-
-void count(Bounces& bounces, const Opportunity& o) {
-  bounces.observed += o.bounced ? 1 : 0;
-  bounces.observed_bounced += o.bounced.value_or(false) ? 1 : 0;
-  bounces.truth += o.truth_bounced ? 1 : 0;
-  bounces.truth_bounced += o.truth_bounced.value_or(false) ? 1 : 0;
+/// The ending where goals count: a ball inside of which nobody knows whether it was saved is unknown.
+Ending past_keeper(const Opportunity& o) {
+  if (o.ending == Ending::kBlocked) return Ending::kOutside;
+  if (o.ending != Ending::kInside) return o.ending;
+  return !o.saved ? Ending::kUnknown : *o.saved ? Ending::kOutside : Ending::kInside;
 }
 
 GroupResult group_result(const KickDataset& dataset, std::uint32_t group) {
@@ -37,15 +33,18 @@ GroupResult group_result(const KickDataset& dataset, std::uint32_t group) {
     result.outside += o.ending == Ending::kOutside ? 1 : 0;
     result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
     result.blocked += o.ending == Ending::kBlocked ? 1 : 0;
-    result.goals += o.goal ? 1 : 0;
-    if (o.ending == Ending::kInside) count(result.bounces, o);
+    result.goals += past_keeper(o) == Ending::kInside ? 1 : 0;
+    if (o.ending == Ending::kInside) {
+      result.inside_kicks.bounced.add(o.bounced, o.truth_bounced);
+      result.inside_kicks.saved.add(o.observed_saved, o.truth_saved);
+    }
     result.doubt += {o.ending == Ending::kInside ? o.doubt : 0.0, o.ending == Ending::kOutside ? o.doubt : 0.0};
     if (!dataset.has_matches) continue;
     const stats::ClusterCounts empty{o.match, o.calibration, {}};
     auto& [all, known, past] =
         cells.try_emplace({o.match, o.calibration}, std::array{empty, empty, empty}).first->second;
     add(all.counts, o.ending);
-    add(past.counts, past_keeper(o.ending, o.goal));
+    add(past.counts, past_keeper(o));
     if (o.ending == Ending::kInside || o.ending == Ending::kOutside) add(known.counts, o.ending);
   }
   std::vector<stats::ClusterCounts> opportunities, kicks, goals;
@@ -89,7 +88,7 @@ std::optional<Effect> effect(std::vector<stats::MatchCounts> cells, bool has_mat
 
 // The same dataset with goals as what is inside.
 KickDataset goals_of(KickDataset dataset) {
-  for (Opportunity& o : dataset.opportunities) o.ending = past_keeper(o.ending, o.goal);
+  for (Opportunity& o : dataset.opportunities) o.ending = past_keeper(o);
   return dataset;
 }
 

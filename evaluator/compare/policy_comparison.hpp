@@ -9,7 +9,7 @@
 
 #include "evaluator/compare/comparison.hpp"
 #include "evaluator/compare/log_differences.hpp"
-#include "evaluator/counting/bounces.hpp"
+#include "evaluator/counting/inside_kicks.hpp"
 #include "evaluator/counting/kick_dataset.hpp"
 #include "evaluator/render/gate.hpp"
 #include "evaluator/stats/clustered.hpp"
@@ -30,8 +30,8 @@ struct GroupResult {
   std::int64_t unknown = 0;
   stats::LabelDoubt doubt;             ///< of the labels
   std::int64_t blocked = 0;            ///< where they stand apart; otherwise they are outside
-  std::int64_t goals = 0;              ///< by the simulator's truth: on target and past the keeper
-  Bounces bounces;                     ///< of those inside
+  std::int64_t goals = 0;              ///< inside, and known that no keeper stopped them
+  InsideKicks inside_kicks;            ///< of those inside
   std::size_t matches = 0;             ///< 0: not known
   std::optional<double> minutes;       ///< of play; none: not known
   stats::Interval efficiency_ci;       ///< of inside / (inside + outside)
@@ -103,7 +103,7 @@ struct PairResult {
   std::optional<Comparison> kicks;           ///< efficiency, kicks taken as independent; none: one has no kick
   std::optional<Effect> efficiency;          ///< of kicks
   std::optional<Effect> per_opportunity;     ///< of opportunities
-  std::optional<Effect> goals;               ///< past the keeper, of opportunities; none: no keeper saved anything
+  std::optional<Effect> goals;               ///< of opportunities; none: no keeper saved anything
   std::optional<stats::PairedCounts> pairs;  ///< opportunities that both had
   std::int64_t unpaired = 0;                 ///< opportunities without a partner
   double mcnemar_p = 1.0;

@@ -79,9 +79,9 @@ std::string calibrations(const stats::Clustered& clustered) {
 
 // What Table 2 does not tell of the balls inside: how many bounced, how many passed the keeper.
 std::string inside_text(const PolicyComparison& c) {
-  std::vector<NamedBounces> bounces;
-  for (const GroupResult& g : c.groups) bounces.push_back({g.name, g.bounces});
-  std::string text = bounce_lines(bounces);
+  std::vector<NamedInside> groups;
+  for (const GroupResult& g : c.groups) groups.push_back({g.name, g.inside_kicks});
+  std::string text = inside_lines(groups);
   if (!text.empty()) text = "\nOf the balls inside\n" + text;
   if (!c.dataset.keeper || !c.dataset.has_opportunities) return text;
   Table table = {{c.by, "inside", "goals", "goals an opp.", "95 %"}};
@@ -89,7 +89,7 @@ std::string inside_text(const PolicyComparison& c) {
     const stats::Counts goals{g.goals, g.opportunities};
     table.push_back({g.name, whole(g.inside), whole(g.goals), share(goals), share_ci(goals, g.goals_ci)});
   }
-  return text + "\nGoals: past the keeper, by the simulator's truth\n" + text_table(table);
+  return text + fmt::format("\nGoals: inside and not saved, {}\n", c.dataset.outcome) + text_table(table);
 }
 
 std::string newcombe_of(const Effect& effect) {

@@ -139,18 +139,20 @@ KickDataset dataset_of(const LoggedOpportunities& logged, const LogKicks& option
 }
 
 // What a row says by itself, without the numbers that the dataset gives to groups, strata, settings and calibrations.
-Opportunity opportunity_of(const LoggedOpportunity& o, const ComparedSession& session, bool blocked_apart) {
+Opportunity opportunity_of(const LoggedOpportunity& o, const ComparedSession& session, const KickDataset& dataset) {
   Opportunity opportunity;
   opportunity.match = session.match;
   if (o.has_possession && o.possession_id != 0) {
     const std::uint64_t half = session.paired_halves ? 1 : static_cast<std::uint64_t>(o.half);
     opportunity.id = half << 48 | static_cast<std::uint64_t>(o.possession_id);
   }
-  opportunity.ending = blocked_apart && o.blocked ? Ending::kBlocked : o.ending;
+  opportunity.ending = dataset.blocked_apart && o.blocked ? Ending::kBlocked : o.ending;
   if (opportunity.ending != Ending::kBlocked) opportunity.doubt = o.doubt;
   opportunity.bounced = o.bounced;
   opportunity.truth_bounced = o.truth_bounced;
-  opportunity.goal = o.goal;
+  opportunity.observed_saved = o.saved;
+  opportunity.truth_saved = o.truth_saved;
+  opportunity.saved = dataset.outcome == "truth" ? o.truth_saved : o.saved;
   return opportunity;
 }
 
@@ -173,13 +175,13 @@ std::vector<std::size_t> enter_opportunities(KickDataset& dataset, const LoggedO
       ++certain;
     } else {
       const ComparedSession& session = logged.sessions[o.session];
-      Opportunity& opportunity = dataset.opportunities.emplace_back(opportunity_of(o, session, dataset.blocked_apart));
+      Opportunity& opportunity = dataset.opportunities.emplace_back(opportunity_of(o, session, dataset));
       opportunity.group = group->second;
       const std::string stratum = stratum_name ? (*stratum_name)(o) : std::string();
       opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(dataset.strata, stratum);
       opportunity.setting = settings.of(session, o.policy);
       opportunity.calibration = calibrations.try_emplace(session.calibration_id, calibrations.size()).first->second;
-      dataset.keeper = dataset.keeper || o.saved;
+      dataset.keeper = dataset.keeper || opportunity.saved.value_or(false);
       rows.push_back(i);
     }
   }

@@ -40,8 +40,8 @@ struct SeenKick {
   std::optional<double> p_inside;  // of the observed label; none where the truth is asked for
   std::optional<bool> bounced;
   std::optional<bool> truth_bounced;
-  bool saved = false;
-  bool goal = false;
+  std::optional<bool> saved;
+  std::optional<bool> truth_saved;
 };
 
 // What the logs say, of every session; what counts is known when all are read.
@@ -122,8 +122,6 @@ void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, const T
     if (!key) return;
     const auto& [session, robot_id, half, own_id] = *key;
     auto truth_outcome = row.find<std::string>("truth_outcome");
-    const bool saved = row.find<bool>("truth_saved").value_or(false);
-    const bool goal = truth_outcome == "on_target" && !saved;
     seen.kicks.push_back({.session = session,
                           .robot_id = robot_id,
                           .half = half,
@@ -135,8 +133,8 @@ void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, const T
                           .p_inside = truth ? std::nullopt : row.find<double>("observed_p_on_target"),
                           .bounced = row.find<bool>("bounced"),
                           .truth_bounced = row.find<bool>("truth_bounced"),
-                          .saved = saved,
-                          .goal = goal});
+                          .saved = row.find<bool>("saved"),
+                          .truth_saved = row.find<bool>("truth_saved")});
   });
 }
 
@@ -195,7 +193,7 @@ void add_kicks(const std::vector<SeenKick>& kicks, const SessionIndex& sessions_
     o.bounced = kick.bounced;
     o.truth_bounced = kick.truth_bounced;
     o.saved = kick.saved;
-    o.goal = kick.goal;
+    o.truth_saved = kick.truth_saved;
   }
   for (std::size_t i = 0; i < kNoGoals.size(); ++i) {
     if (no_goals[i] == 0) continue;

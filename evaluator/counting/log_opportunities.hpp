@@ -46,8 +46,8 @@ struct LoggedOpportunity {
   bool blocked = false;                 ///< the kick, an Ending::kOutside
   std::optional<bool> bounced{};        ///< as observed
   std::optional<bool> truth_bounced{};  ///< by the simulator's truth
-  bool saved = false;                   ///< by the simulator's truth
-  bool goal = false;                    ///< by the simulator's truth
+  std::optional<bool> saved{};          ///< on target, and a keeper stopped it: as observed or said by hand
+  std::optional<bool> truth_saved{};    ///< by the simulator's truth
   bool has_possession = true;           ///< false: a kick alone
 };
 

@@ -61,7 +61,7 @@ std::vector<NamedKick> named_kicks(const log::Reader& reader) {
   std::vector<NamedKick> kicks;
   reader.query(
       "SELECT k.session_id, s.uuid, k.robot_id, k.kick_id, k.kick_id & 0xffffffffff AS number, k.t_ns, "
-      "k.t_ns - s.started_t_ns AS after_ns, k.policy, coalesce(k.outcome, '') AS observed, k.hand_outcome, h.who "
+      "k.t_ns - s.started_t_ns AS after_ns, k.policy, coalesce(k.outcome, '') AS observed, h.label, h.who "
       "FROM counted_kicks AS k JOIN sessions AS s ON s.session_id = k.session_id LEFT JOIN hand_labels AS h ON "
       "h.session_id = k.session_id AND h.robot_id = k.robot_id AND h.kick_id = k.kick_id WHERE k.accepted IS NOT 0 "
       "ORDER BY s.started_t_ns, k.session_id, k.t_ns, k.robot_id",
@@ -70,7 +70,7 @@ std::vector<NamedKick> named_kicks(const log::Reader& reader) {
                          row.get<std::int64_t>("kick_id"), row.get<std::int64_t>("number"),
                          row.get<std::int64_t>("t_ns"), kicking::seconds(row.get<std::int64_t>("after_ns")),
                          row.get<std::string>("policy"), row.get<std::string>("observed"),
-                         row.find<std::string>("hand_outcome"), row.find<std::string>("who")});
+                         row.find<std::string>("label"), row.find<std::string>("who")});
       });
   return kicks;
 }

@@ -3,7 +3,7 @@
 -- Columns: session_id, robot_id, kick_id, number (of the robot's orders in its own session), t_ns, policy, outcome (by hand),
 -- observed (NULL: no outcome came), who, labelled_utc_ns, note.
 SELECT k.session_id, k.robot_id, k.kick_id, k.kick_id & 0xffffffffff AS number, k.t_ns, k.policy,
-  k.hand_outcome AS outcome, k.outcome AS observed, h.who, h.utc_ns AS labelled_utc_ns, h.note
+  h.label AS outcome, k.outcome AS observed, h.who, h.utc_ns AS labelled_utc_ns, h.note
 FROM counted_kicks AS k
 JOIN hand_labels AS h ON h.session_id = k.session_id AND h.robot_id = k.robot_id AND h.kick_id = k.kick_id
 WHERE k.accepted IS NOT 0

@@ -65,7 +65,8 @@ std::string row_of(std::size_t number, const PageKick& kick, bool several_logs, 
   if (several_logs) row += cell(std::to_string(kick.log + 1));
   row += cell(instant_text(story)) + cell(match_time_text(story)) + cell(story.policy);
   row += cell(story.distance_m > 0.0 ? fmt::format("{:.2f}", story.distance_m) : "–");
-  row += cell(story.power ? fmt::format("{:.1f}", *story.power) : "–");
+  row += cell((story.power ? fmt::format("{:.1f}", *story.power) : "–") +
+              (story.kick_kind > 0 ? fmt::format(", kind {}", story.kick_kind + 1) : ""));
   row += cell(crossing_text(story.predicted)) + cell(crossing_text(story.observed));
   row += fmt::format("<td class=\"outcome {}\">{}</td>", kOutcomeNames[static_cast<std::size_t>(kind_of(story))].key,
                      html(outcome_words(story)));

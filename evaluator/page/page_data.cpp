@@ -182,6 +182,9 @@ void read_kicks(const log::Reader& reader, std::size_t log, PageData& data) {
 void read_predictions(const log::Reader& reader, PageData& data) {
   reader.query(kPredictedKicksSql, [&](const log::NamedCells& row) {
     data.predictions.push_back({row.get<double>("p_on_target"), row.get<bool>("on_target")});
+    const auto p_goal = row.find<double>("p_goal");
+    const auto goal = row.find<bool>("goal");
+    if (p_goal && goal) data.predicted_goals.push_back({*p_goal, *goal});
   });
 }
 

@@ -59,10 +59,10 @@ struct HeldReason {
   std::map<std::string, WouldKick> would;  ///< by the shadow's policy, of those that would have kicked at all
 };
 
-/// A kick whose chance was predicted by the physical model.
+/// What was predicted of a kick by the physical model, and what came.
 struct PredictedChance {
-  double p_on_target = 0.0;
-  bool on_target = false;
+  double p = 0.0;
+  bool came = false;
 };
 
 /// What a robot measured of another participant's clock.
@@ -96,7 +96,8 @@ struct PageData {
   std::vector<HeldReason> held;
   std::vector<HeldChance> held_chances;
   std::vector<std::string> shadows;  ///< policies that rode along
-  std::vector<PredictedChance> predictions;
+  std::vector<PredictedChance> predictions;       ///< of balls on target
+  std::vector<PredictedChance> predicted_goals;  ///< past a tracked keeper, where it is known what came
   DriftReport drift;
   std::vector<LogChange> changes;   ///< one less than there are logs
   std::vector<DecidedAgain> again;  ///< replays, where what they replay is among the logs

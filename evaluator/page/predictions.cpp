@@ -131,22 +131,23 @@ std::string drift_table(const std::vector<HeightError>& errors) {
   return rows.size() > 1 ? details("The same in numbers", table("Height, observed minus predicted", rows)) : "";
 }
 
-std::string reliability_figure(const PageView& view) {
+std::string reliability_figure(const PageView& view, const std::vector<PredictedChance>& predictions,
+                               const char* id, const std::string& what) {
   struct Band {
     stats::Counts counts;
     double p_sum = 0.0;
   };
   std::array<Band, 10> bands{};
   double expected = 0.0;
-  for (const PredictedChance& chance : view.data.predictions) {
-    Band& band = bands[static_cast<std::size_t>(std::clamp(10.0 * chance.p_on_target, 0.0, 9.0))];
+  for (const PredictedChance& chance : predictions) {
+    Band& band = bands[static_cast<std::size_t>(std::clamp(10.0 * chance.p, 0.0, 9.0))];
     ++band.counts.n;
-    band.counts.inside += chance.on_target ? 1 : 0;
-    band.p_sum += chance.p_on_target;
-    expected += chance.p_on_target;
+    band.counts.inside += chance.came ? 1 : 0;
+    band.p_sum += chance.p;
+    expected += chance.p;
   }
-  const Axis x = axis(0.0, 100.0, kLeft, kRight, "predicted P(on target) [%]");
-  const Axis y = axis(0.0, 100.0, kBottom, kTop, "on target [%]");
+  const Axis x = axis(0.0, 100.0, kLeft, kRight, fmt::format("predicted P({}) [%]", what));
+  const Axis y = axis(0.0, 100.0, kBottom, kTop, what + " [%]");
   std::string svg = axes(x, y) + svg_line("zero", kLeft, kBottom, kRight, kTop);
   std::int64_t inside = 0;
   for (const Band& band : bands) {
@@ -157,7 +158,7 @@ std::string reliability_figure(const PageView& view) {
     const double px = x.scale.px(100.0 * band.p_sum / n);
     const double share = static_cast<double>(band.counts.inside) / n;
     svg += titled(
-        fmt::format("predicted {}: {} of {} on target", percent(band.p_sum / n), band.counts.inside, band.counts.n),
+        fmt::format("predicted {}: {} of {} {}", percent(band.p_sum / n), band.counts.inside, band.counts.n, what),
         svg_line("c0 interval", px, y.scale.px(100.0 * ci.lo), px, y.scale.px(100.0 * ci.hi)) +
             svg_circle("c0", {px, y.scale.px(100.0 * share)}, 5.5));
   }
@@ -165,10 +166,9 @@ std::string reliability_figure(const PageView& view) {
       "Kicks in ten bands of the probability that the physical model gave them beforehand. On the diagonal, kicks come "
       "as often as predicted; "
       "below it the model promised too much. Over all: {:.1f} of {} predicted, {} came.",
-      expected, view.data.predictions.size(), inside);
-  return figure(
-      {"reliability-figure", "Predicted probability against the share on target", kFigureHeight, view.simulated}, svg,
-      note);
+      expected, predictions.size(), inside);
+  return figure({id, fmt::format("Predicted probability against the share: {}", what), kFigureHeight, view.simulated},
+                svg, note);
 }
 
 }  // namespace
@@ -183,7 +183,11 @@ std::string prediction_section(const PageView& view) {
   body += "<h3>Probability of a shot on target</h3>\n";
   body += view.data.predictions.empty()
               ? paragraphs({"No kick was given a probability: the predictive policy neither played nor rode along."})
-              : reliability_figure(view);
+              : reliability_figure(view, view.data.predictions, "reliability-figure", "on target");
+  if (!view.data.predicted_goals.empty()) {
+    body += "<h3>Probability of a goal past the keeper</h3>\n";
+    body += reliability_figure(view, view.data.predicted_goals, "goal-reliability-figure", "goal");
+  }
   return section("predictions", "Predicted and observed", body);
 }
 

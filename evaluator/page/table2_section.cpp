@@ -49,6 +49,20 @@ std::string misses_table(const Report& report) {
   return table("Why the misses missed", rows);
 }
 
+std::string goals_table(const Report& report) {
+  if (!report.keeper()) return "";
+  std::vector<Cells> rows{{"policy", "inside", "goals", "saved", "not known", "goals a minute"}};
+  for (const PolicyRow& row : report.policies) {
+    const SaidOfInside& saved = row.inside_kicks.saved;
+    Cells& cells = rows.emplace_back(Cells{name_of(row)});
+    for (const std::int64_t n : {row.inside(), row.goals(), saved.observed_yes, row.inside() - saved.observed})
+      cells.push_back(std::to_string(n));
+    const bool played = row.played_min && *row.played_min > 0.0;
+    cells.push_back(played ? fmt::format("{:.2f}", static_cast<double>(row.goals()) / *row.played_min) : "\u2013");
+  }
+  return table("Goals: inside, and no keeper stopped them", rows);
+}
+
 }  // namespace
 
 std::string table2_section(const PageView& view) {
@@ -66,7 +80,7 @@ std::string table2_section(const PageView& view) {
     notes.emplace_back("Blocked kicks stand apart: neither outside nor in the efficiency.");
   if (rows.size() == 1) return section("table2", "Table 2", paragraphs({"There are no kicks."}));
   std::string body = table(std::string(view.simulated ? "Kicks by policy (simulated)" : "Kicks by policy"), rows);
-  body += paragraphs(notes) + misses_table(report);
+  body += paragraphs(notes) + goals_table(report) + misses_table(report);
   if (!report.robots.empty()) {
     std::vector<Cells> by_robot{joined({"robot", "policy"}, kHead)};
     for (const RobotRow& row : report.robots)

@@ -9,7 +9,8 @@
 namespace trivela::evaluator {
 
 bool disagree(const std::string& by_hand, const std::string& observed) {
-  return by_hand == "outside" ? observed == "on_target" : by_hand != observed;
+  const bool inside = by_hand == "goal" || by_hand == "saved" || by_hand == "on_target", seen = observed == "on_target";
+  return inside || by_hand == "outside" ? inside != seen : by_hand != observed;
 }
 
 HandLabels hand_labels_of(const log::Reader& reader, const std::set<std::int64_t>& sessions) {

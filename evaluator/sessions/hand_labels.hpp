@@ -21,7 +21,8 @@ struct HandLabels {
   void add(const HandLabels& other);
 };
 
-/// Whether a label and an observed outcome contradict each other: "outside" is every miss.
+/// Whether a label and an observed outcome contradict each other: "outside" is every miss, "goal" and "saved" are on
+/// target.
 bool disagree(const std::string& by_hand, const std::string& observed);
 
 /// Of kicks in these sessions. Throws std::runtime_error where the log cannot be read.

@@ -65,6 +65,7 @@ Json json_of(const KickTimeline& story) {
             {"policy", story.policy},
             {"half", story.half},
             {"utc_ms", ms(story.utc_ns)}};
+  if (story.kick_kind != 0) json["kick_kind"] = story.kick_kind;
   put(json, "half_time_ms", story.half_time_s, 1000.0);
   json["distance_cm"] = cm(story.distance_m);
   if (story.power) json["power"] = static_cast<double>(whole(100.0 * *story.power)) / 100.0;
@@ -81,6 +82,7 @@ Json json_of(const KickTimeline& story) {
   put(json, "released_ms", story.released_after_s, 1000.0);
   put_end(json, "predicted", story.predicted);
   put_end(json, "observed", story.observed);
+  if (story.observed && story.saved) json["observed"]["saved"] = *story.saved;
   put_end(json, "truth", story.truth);
   put_path(json, story.path);
   put_places(json, "ball", story.ball, false);

@@ -54,6 +54,8 @@ std::vector<KickTimeline> listed_kicks(const log::Reader& reader) {
     timeline.robot = {row.get<double>("x_m"), row.get<double>("y_m"), row.get<double>("heading_rad")};
     timeline.target_m = {row.get<double>("target_x_m"), row.get<double>("target_y_m")};
     timeline.bounced = row.find<bool>("bounced");
+    timeline.saved = row.find<bool>("saved");
+    timeline.kick_kind = row.get<int>("kick_kind");
     timeline.segments = decided_segments({timeline.robot, row.get<double>("alpha_rad"), timeline.target_m, distance_m,
                                           row.get<bool>("aligned"), row.find<double>("offset_right_m"),
                                           row.get<double>("left_m"), row.get<double>("right_m")});

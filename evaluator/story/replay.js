@@ -171,7 +171,9 @@ const replay = (() => {
   const seconds = (t_ms) => `${t_ms < 0 ? '\u2212' : '+'}${(Math.abs(t_ms) / 1000).toFixed(2)} s`;
 
   function moment(story, t_ms) {
-    if (story.observed && t_ms >= (story.observed.t_ms ?? Infinity)) return story.observed.outcome.replaceAll('_', ' ');
+    const seen = story.observed;
+    if (seen && t_ms >= (seen.t_ms ?? Infinity))
+      return seen.saved === undefined ? seen.outcome.replaceAll('_', ' ') : seen.saved ? 'saved' : 'goal';
     if (t_ms >= (story.released_ms ?? Infinity)) return 'ball away';
     return t_ms >= 0 ? 'decided' : 'before the decision';
   }

@@ -31,6 +31,10 @@ const CsvCells kCsvMore = {"not_said",
                            "observed_bounced_of",
                            "truth_bounced",
                            "truth_bounced_of",
+                           "observed_saved",
+                           "observed_saved_of",
+                           "truth_saved",
+                           "truth_saved_of",
                            "expected_wrong_inside",
                            "expected_wrong_outside",
                            "repeated_in_paired_halves",
@@ -66,10 +70,10 @@ std::string csv_row_line(const PolicyRow& row, const std::string& robot_id, cons
                     csv_cell(row.played_min),
                     csv_cell(row.kicks_per_min())};
   for (const std::string& miss : kMisses) cells.push_back(csv_cell(row.of(miss)));
-  for (const std::int64_t n :
-       {row.of("outside"), row.of(kNoGoals[0].label), row.of(kNoGoals[1].label), row.bounces.observed_bounced,
-        row.bounces.observed, row.bounces.truth_bounced, row.bounces.truth})
-    cells.push_back(csv_cell(n));
+  for (const char* label : {"outside", kNoGoals[0].label, kNoGoals[1].label}) cells.push_back(csv_cell(row.of(label)));
+  for (const SaidOfInside& said : {row.inside_kicks.bounced, row.inside_kicks.saved})
+    for (const std::int64_t n : {said.observed_yes, said.observed, said.truth_yes, said.truth})
+      cells.push_back(csv_cell(n));
   cells.push_back(csv_cell(row.doubt.inside));
   cells.push_back(csv_cell(row.doubt.outside));
   cells.push_back(csv_cell(row.repeated));

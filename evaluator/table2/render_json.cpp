@@ -23,7 +23,8 @@ Json policy_json(const PolicyRow& row) {
           {"expected_wrong", {{"inside", row.doubt.inside}, {"outside", row.doubt.outside}}},
           {"played_min", json_of(row.played_min)},
           {"kicks_per_min", json_of(row.kicks_per_min())},
-          {"bounced", bounces_json(row.bounces)},
+          {"bounced", said_json(row.inside_kicks.bounced, "bounced")},
+          {"saved", said_json(row.inside_kicks.saved, "saved")},
           {"blocked", row.blocked_apart ? "apart" : "outside"},
           {"misses", misses}};
 }

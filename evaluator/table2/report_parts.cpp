@@ -56,15 +56,15 @@ ReportPart table2_part(const Report& report) {
   ReportPart part{report.arms.empty() ? "Table 2: kicks by policy" : "Table 2: kicks by arm",
                   {head_of(report, kCountHead)},
                   {"inside: between the posts and below the bar, saves included; it is not goals scored"}};
-  std::vector<NamedBounces> bounces;
+  std::vector<NamedInside> inside;
   bool blocked_apart = false;
   for (const PolicyRow& row : report.policies) {
-    bounces.push_back({kicking::printable(name_of(row)), row.bounces});  // its lines are taken apart
+    inside.push_back({kicking::printable(name_of(row)), row.inside_kicks});  // its lines are taken apart
     blocked_apart = blocked_apart || row.blocked_apart;
     part.table.push_back(who_of(report, row));
     add_counts(part.table.back(), row);
   }
-  add_lines(part.notes, bounce_lines(bounces));
+  add_lines(part.notes, inside_lines(inside));
   if (report.arms.size() > 1)
     part.notes.emplace_back("arms of an experiment meet the same opportunities, so that their kicks are not added up");
   if (blocked_apart) part.notes.emplace_back("blocked kicks stand apart, below: neither outside nor in the efficiency");
@@ -74,6 +74,21 @@ ReportPart table2_part(const Report& report) {
         "{} of the kicks of {} are in situations that it had in an earlier half, too{}", row.repeated, name_of(row),
         row.paired_ci ? ": its interval takes each situation once"
                       : "; for an interval that allows for it these are too few situations"));
+  }
+  return part;
+}
+
+ReportPart goals_part(const Report& report) {
+  ReportPart part{"Goals: inside, and no keeper stopped them",
+                  {head_of(report, {"inside", "goals", "saved", "not known", "goals a minute"})},
+                  {}};
+  for (const PolicyRow& row : report.policies) {
+    const SaidOfInside& saved = row.inside_kicks.saved;
+    std::vector<std::string>& cells = part.table.emplace_back(who_of(report, row));
+    for (const std::int64_t n : {row.inside(), row.goals(), saved.observed_yes, row.inside() - saved.observed})
+      cells.push_back(shown(n));
+    const bool played = row.played_min && *row.played_min > 0.0;
+    cells.push_back(shown(played ? std::optional(static_cast<double>(row.goals()) / *row.played_min) : std::nullopt));
   }
   return part;
 }
@@ -222,6 +237,7 @@ std::string name_of(const PolicyRow& row) {
 ReportParts parts_of(const Report& report) {
   ReportParts result{heading_of(report), {table2_part(report)}, next_comparison(report)};
   if (std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.kicks() > 0; })) {
+    if (report.keeper()) result.parts.push_back(goals_part(report));
     if (!report.robots.empty()) result.parts.push_back(by_robot_part(report));
     result.parts.push_back(misses_part(report));
     if (!imported_alone(report)) result.parts.push_back(label_quality_part(report.labels));

@@ -106,10 +106,18 @@ void add_kicks(Rows& rows, const log::Reader& reader) {
                  [&](RobotRow& of) {
                    of.kicks_by_outcome[outcome] += row.get<std::int64_t>("kicks");
                    if (outcome != "on_target") return;
-                   of.bounces.observed += row.get<std::int64_t>("observed");
-                   of.bounces.observed_bounced += row.get<std::int64_t>("observed_bounced");
-                   of.bounces.truth += row.get<std::int64_t>("truth");
-                   of.bounces.truth_bounced += row.get<std::int64_t>("truth_bounced");
+                   const auto add = [&](std::int64_t& sum, const char* column) {
+                     sum += row.get<std::int64_t>(column);
+                   };
+                   auto& [bounced, saved] = of.inside_kicks;
+                   add(bounced.observed, "observed");
+                   add(bounced.observed_yes, "observed_bounced");
+                   add(bounced.truth, "truth");
+                   add(bounced.truth_yes, "truth_bounced");
+                   add(saved.observed, "observed_to_the_end");
+                   add(saved.observed_yes, "observed_saved");
+                   add(saved.truth, "truth_to_the_end");
+                   add(saved.truth_yes, "truth_saved");
                  });
   });
 }

@@ -178,6 +178,10 @@ std::int64_t Report::unclosed_sessions() const {
   return std::ranges::count_if(sessions, [](const auto& session) { return !session.closed_t_ns; });
 }
 
+bool Report::keeper() const {
+  return std::ranges::any_of(policies, [](const PolicyRow& row) { return row.inside_kicks.saved.observed_yes > 0; });
+}
+
 std::int64_t Report::simulated_sessions() const {
   return std::ranges::count_if(sessions, &log::RecordedSession::simulated);
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "evaluator/counting/arms.hpp"
-#include "evaluator/counting/bounces.hpp"
+#include "evaluator/counting/inside_kicks.hpp"
 #include "evaluator/counting/log_opportunities.hpp"
 #include "evaluator/render/gate.hpp"
 #include "evaluator/sessions/hand_labels.hpp"
@@ -33,7 +33,7 @@ struct PolicyRow {
   std::string policy;
   std::map<std::string, std::int64_t> kicks_by_outcome;
   stats::LabelDoubt doubt;  ///< of the labels; 0 where the log does not say
-  Bounces bounces;
+  InsideKicks inside_kicks;
   bool blocked_apart = false;        ///< blocked kicks are neither inside nor outside
   std::optional<double> played_min;  ///< minutes of play in the possessions in which it had the ball; none: not known
   std::int64_t repeated = 0;         ///< kicks in situations that it had in an earlier, paired half
@@ -45,6 +45,9 @@ struct PolicyRow {
   std::int64_t unknown() const { return of("unknown"); }
   std::int64_t blocked() const { return of("blocked"); }
   std::int64_t outside() const { return kicks() - inside() - unknown() - (blocked_apart ? blocked() : 0); }
+
+  /// Inside, and known that no keeper stopped them.
+  std::int64_t goals() const { return inside_kicks.saved.observed - inside_kicks.saved.observed_yes; }
 
   /// Inside of the kicks whose outcome is known.
   stats::Counts counts() const { return {inside(), inside() + outside()}; }
@@ -110,6 +113,9 @@ struct Report {
   std::int64_t alike_with_truth = 0;
 
   std::vector<GateResult> gates;  ///< of whoever asked (judge_gates())
+
+  /// A keeper saved something: goals are fewer than balls inside.
+  bool keeper() const;
 
   std::int64_t rows_missing() const;
   std::int64_t unclosed_sessions() const;

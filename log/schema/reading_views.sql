@@ -46,8 +46,10 @@ JOIN kick_decisions AS a ON a.session_id = d.session_id AND a.robot_id = d.robot
 WHERE d.fire = 1;
 -- What people say of kicks: the latest label of each, unless it is withdrawn, for every recording of that kick in the log.
 -- An experiment's kicks are nobody else's.
+-- goal and saved are on_target in outcome, and stand as they are in label.
 CREATE TEMP VIEW hand_labels AS
-SELECT session_id, robot_id, kick_id, utc_ns, who, outcome, note
+SELECT session_id, robot_id, kick_id, utc_ns, who, note, outcome AS label,
+  CASE WHEN outcome IN ('goal', 'saved') THEN 'on_target' ELSE outcome END AS outcome
 FROM (
   SELECT s.session_id, l.robot_id, l.kick_id, l.utc_ns, l.who, l.outcome, l.note,
     row_number() OVER (PARTITION BY s.session_id, l.robot_id, l.kick_id ORDER BY l.utc_ns DESC, l.who DESC) AS place
@@ -62,16 +64,20 @@ WHERE place = 1 AND outcome IS NOT NULL;
 -- Kicks with no_goal, why the rules count none of this kick (NULL: they do): 'own_half' from where the ball lay when it
 -- was decided, 'carried_too_far' by its carry; and with what counts as their outcome, label: what people say of it
 -- (hand_outcome; NULL: nothing), else what the observer does (outcome). One on target that is no goal has no_goal,
--- 'outside' is one of which somebody who saw it did not say how.
+-- 'outside' is one of which somebody who saw it did not say how. saved: whether a keeper stopped a kick on target (NULL:
+-- not known, not on target, or no goal).
 CREATE TEMP VIEW labelled_kicks AS
 SELECT k.*,
   CASE WHEN k.hand_outcome IS NULL AND k.outcome = 'unknown' AND k.observed_p_on_target = 0.0
       AND k.session_id IN (SELECT session_id FROM imported_sessions)
     THEN 'outside'
     WHEN coalesce(k.hand_outcome, k.outcome) = 'on_target' THEN coalesce(k.no_goal, 'on_target')
-    ELSE coalesce(k.hand_outcome, k.outcome) END AS label
+    ELSE coalesce(k.hand_outcome, k.outcome) END AS label,
+  CASE WHEN k.no_goal IS NOT NULL OR coalesce(k.hand_outcome, k.outcome) <> 'on_target' THEN NULL
+    WHEN k.hand_label IN ('goal', 'saved') THEN k.hand_label = 'saved'
+    WHEN k.outcome = 'on_target' THEN k.observed_p_saved > 0.5 * coalesce(k.observed_p_on_target, 1.0) END AS saved
 FROM (
-  SELECT j.*, h.outcome AS hand_outcome, coalesce(h.utc_ns, 0) AS labelled_utc_ns,
+  SELECT j.*, h.outcome AS hand_outcome, h.label AS hand_label, coalesce(h.utc_ns, 0) AS labelled_utc_ns,
     CASE WHEN j.session_id IN (SELECT session_id FROM ruled_sessions) THEN (
       SELECT CASE WHEN s.opponents_half_only AND d.y_m + s.ball_offset_m * cos(d.heading_rad) <= 0.0 THEN 'own_half'
         WHEN s.carry_limit_m < (
@@ -91,7 +97,9 @@ WHERE k.session_id NOT IN (SELECT session_id FROM left_out_sessions)
 -- (NULL: nothing). An order may be sent twice, an outcome corrected: the first decision, the first receipt that accepts
 -- and the latest outcome count; a kick that a later receipt says was not fired is none; what people say of the kick comes before the robot's outcome.
 CREATE TEMP VIEW accepted_kicks AS
-SELECT d.*, r.order_t_ns, r.power AS given_power, coalesce(h.outcome, c.outcome) AS outcome, c.x_cross_m, c.z_cross_m
+SELECT d.*, r.order_t_ns, r.power AS given_power, coalesce(h.outcome, c.outcome) AS outcome, c.x_cross_m, c.z_cross_m,
+  CASE WHEN h.label IN ('goal', 'saved') THEN h.label = 'saved' WHEN c.outcome = 'on_target'
+    THEN c.p_saved > 0.5 * coalesce(c.p_on_target, 1.0) END AS saved
 FROM kick_decisions AS d
 JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_id AND r.seq = (
   SELECT min(seq) FROM main.kick_receipts INDEXED BY kick_receipts_kick

@@ -420,6 +420,7 @@ CREATE TABLE kick_outcomes (               -- what became of a kick, as seen by 
   bounced INTEGER CHECK (bounced IN (0, 1)), -- 1: it touched the floor before the line; NULL: not said
   residual_sd_m REAL,                      -- of a sighting about the fit, m
   release_late_s REAL,                     -- by its flight the ball left so much later than the robot's file says, s
+  p_saved REAL,                            -- probability that it was on target and a keeper stopped it; NULL: not known
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -549,9 +550,10 @@ CREATE TABLE labels (                      -- what people say of a kick; every r
   utc_ns INTEGER NOT NULL,                 -- UTC since 1970, later than the kick's other labels
   who TEXT NOT NULL,                       -- who says so
   t_ns INTEGER NOT NULL,                   -- of the decision: with robot and kick_id it names the kick in other recordings
-  outcome TEXT CHECK (outcome = 'on_target' OR outcome = 'wide_left' OR outcome = 'wide_right'
-    OR outcome = 'over' OR outcome = 'short' OR outcome = 'post' OR outcome = 'bar' OR outcome = 'blocked'
-    OR outcome = 'outside' OR outcome = 'unknown'), -- what became of it; outside: it does not say how; NULL: withdrawn
+  outcome TEXT CHECK (outcome = 'goal' OR outcome = 'saved' OR outcome = 'on_target' OR outcome = 'wide_left'
+    OR outcome = 'wide_right' OR outcome = 'over' OR outcome = 'short' OR outcome = 'post' OR outcome = 'bar'
+    OR outcome = 'blocked' OR outcome = 'outside' OR outcome = 'unknown'), -- what became of it; on_target: goal or saved;
+                                           -- outside: it does not say how; NULL: withdrawn
   note TEXT NOT NULL,                      -- why, such as a video's time; empty: none
   PRIMARY KEY (session_id, robot_id, kick_id, utc_ns, who)
 ) STRICT, WITHOUT ROWID;
@@ -639,7 +641,7 @@ SELECT
   o.seq AS order_seq,
   r.accepted, r.refusal, r.fired_t_ns, r.release_t_ns,
   c.outcome, c.on_target, c.x_cross_m, c.z_cross_m, c.sd_cross_m, c.exit_speed_mps,
-  c.observations, c.p_on_target AS observed_p_on_target, c.bounced,
+  c.observations, c.p_on_target AS observed_p_on_target, c.p_saved AS observed_p_saved, c.bounced,
   t.outcome AS truth_outcome, t.x_cross_m AS truth_x_cross_m, t.z_cross_m AS truth_z_cross_m,
   t.margin_m AS truth_margin_m, t.saved AS truth_saved, t.bounced AS truth_bounced
 FROM kick_decisions AS d

@@ -182,7 +182,7 @@ async function begin() {
   document.title = `Labels of ${logName}`;
   state.outcomes.forEach((outcome, i) => {
     const button = document.createElement('button'), key = document.createElement('kbd');
-    key.textContent = button.dataset.key = String((i + 1) % 10);
+    key.textContent = button.dataset.key = i < 10 ? String((i + 1) % 10) : outcome[0];
     button.dataset.outcome = outcome;
     button.setAttribute('aria-keyshortcuts', key.textContent);
     button.append(words(outcome), key);

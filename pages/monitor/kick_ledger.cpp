@@ -81,6 +81,7 @@ void KickLedger::hear(const msg::KickDecision& decision, std::int64_t heard_ns) 
                                      .distance_m = decision.distance_m,
                                      .power = decision.power,
                                      .p_on_target = decision.p_on_target,
+                                     .kick_kind = decision.kick_kind,
                                      .goal_counts = counts};
 }
 
@@ -93,7 +94,10 @@ void KickLedger::hear(const msg::KickReceipt& receipt, std::int64_t heard_ns) {
 void KickLedger::hear(const msg::KickOutcome& outcome, std::int64_t heard_ns) {
   KnownKick* const kick = kick_of(outcome.robot_id, outcome.kick_id, heard_ns);
   if (kick == nullptr || (kick->ended && kick->ended->seq >= outcome.seq)) return;
-  kick->ended = KnownKick::Ended{outcome.seq, outcome.outcome, outcome.x_cross_m, outcome.z_cross_m};
+  std::optional<bool> saved;
+  if (outcome.outcome == msg::OUTCOME_ON_TARGET && std::isfinite(outcome.p_saved))
+    saved = outcome.p_saved > 0.5 * (std::isfinite(outcome.p_on_target) ? outcome.p_on_target : 1.0);
+  kick->ended = KnownKick::Ended{outcome.seq, outcome.outcome, saved, outcome.x_cross_m, outcome.z_cross_m};
 }
 
 std::map<std::optional<msg::Policy>, KickTally> KickLedger::tallies(const LedgerNow& now) const {
@@ -109,6 +113,7 @@ std::map<std::optional<msg::Policy>, KickTally> KickLedger::tallies(const Ledger
         break;
       case KickFate::kInside:
         ++tally.inside;
+        tally.goals += kick.ended->saved == false ? 1 : 0;
         break;
       case KickFate::kOutside:
         ++tally.outside;

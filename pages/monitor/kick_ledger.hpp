@@ -22,6 +22,7 @@ struct KnownKick {
     double distance_m = 0.0;
     kicking::Maybe power;
     kicking::Maybe p_on_target;
+    std::uint8_t kick_kind = 0;  ///< of the robot's kinds of kick, in the order of its file
     bool goal_counts = true;  ///< by the rules, if the ball goes in
   };
   struct Answered {
@@ -33,7 +34,8 @@ struct KnownKick {
   struct Ended {
     std::uint64_t seq = 0;
     msg::Outcome outcome{};
-    kicking::Maybe x_m;  ///< ball centre at the goal line, in F
+    std::optional<bool> saved;  ///< of one on target: a keeper stopped it; none: not known
+    kicking::Maybe x_m;         ///< ball centre at the goal line, in F
     kicking::Maybe z_m;
   };
 
@@ -63,6 +65,7 @@ KickFate fate_of(const KnownKick& kick, const LedgerNow& now);
 /// Kicks by fate; `refused` are none.
 struct KickTally {
   std::int64_t inside = 0;
+  std::int64_t goals = 0;  ///< of those inside, known that no keeper stopped them
   std::int64_t outside = 0;
   std::int64_t unknown = 0;
   std::int64_t under_way = 0;

@@ -122,7 +122,7 @@ function showTable() {
   replace($('table').tBodies[0], table.rows, () => table.rows.map((row) => {
     const line = element('tr', '');
     line.append(element('th', words(row.policy), {scope: 'row'}));
-    for (const count of [row.inside, row.outside, row.unknown, row.under_way]) line.append(element('td', count));
+    for (const count of [row.inside, row.goals, row.outside, row.unknown, row.under_way]) line.append(element('td', count));
     line.append(element('td', percent(row.efficiency)), intervalCell(row.interval, row.efficiency));
     return line;
   }));
@@ -143,7 +143,7 @@ function showKicks() {
   replace($('kicks').tBodies[0], [match.kicks, match.names], () => match.kicks.map((kick) => {
     const line = element('tr', '', {class: kick.fate.replace(' ', '-')});
     line.append(element('th', robotName(kick.robot), {scope: 'row'}), element('td', kick.policy === null ? 'not heard' : words(kick.policy)),
-      element('td', fixed(kick.distance, 1, ' m')), element('td', fixed(kick.power, 1)), element('td', percent(kick.p)),
+      element('td', fixed(kick.distance, 1, ' m')), element('td', fixed(kick.power, 1) + (kick.kind ? `, kind ${kick.kind}` : '')), element('td', percent(kick.p)),
       element('td', became(kick), {class: 'became'}));
     return line;
   }));

@@ -123,10 +123,12 @@ Json kick_json(const KnownKick& kick, const LedgerNow& now) {
     shown["distance"] = number(kick.decided->distance_m);
     shown["power"] = number(kick.decided->power);
     shown["p"] = number(kick.decided->p_on_target);
+    if (kick.decided->kick_kind > 0) shown["kind"] = kick.decided->kick_kind + 1;
   }
   if (fate == KickFate::kRefused) shown["refusal"] = msg::label(kick.answered->refusal);
   if (kick.ended) {
-    shown["outcome"] = msg::label(kick.ended->outcome);
+    const auto& saved = kick.ended->saved;
+    shown["outcome"] = !saved ? msg::label(kick.ended->outcome) : *saved ? "saved" : "goal";
     shown["x"] = number(kick.ended->x_m);
     shown["z"] = number(kick.ended->z_m);
   }
@@ -142,6 +144,7 @@ Json table_json(const RunningTable& table) {
   for (const RunningRow& row : table.rows) {
     rows.push_back({{"policy", row.policy},
                     {"inside", row.kicks.inside},
+                    {"goals", row.kicks.goals},
                     {"outside", row.kicks.outside},
                     {"unknown", row.kicks.unknown},
                     {"under_way", row.kicks.under_way},

@@ -199,7 +199,11 @@ class Hypotheses {
     ball.turn((kTurnKeeps - 1.0) * v, kTurnSd * v.norm(), dt_s);
     const bool last = crossing_ && i + 1 == before_line_;
     const double within_s = last ? std::max(0.0, crossing_->t_s - time_s(i)) : dt_s;
-    return {within_s, continued(ball, i, false) - (log_free_.back() - log_free_[i])};
+    Turn turn{within_s, continued(ball, i, false) - (log_free_.back() - log_free_[i])};
+    const AxisState& y = free_[i].y();
+    if (y.p_m + y.v_mps * dt_s > goal_y_m_ - kKeeperDepth_m)
+      turn.crossing = meets_plane(free_[i], time_s(i), goal_y_m_, kFar_s);
+    return turn;
   }
 
   double residual_sd_m() const {

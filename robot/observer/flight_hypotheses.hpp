@@ -22,10 +22,15 @@ struct PlaneCrossing {
 struct Turn {
   double within_s = 0.0;  ///< how long it may have happened
   double log_likelihood = 0.0;
+  std::optional<PlaneCrossing> crossing{};  ///< where the ball was to cross, of a turn near the goal line
 };
 
 /// How often an opponent turns a kick on its way, before anything is seen; assumption.
 inline constexpr double kTurned = 0.05;
+
+/// A keeper plays so far before its line, its body included; assumption: nearer than defenders, who keep out of the
+/// goal area of 0.75 m.
+inline constexpr double kKeeperDepth_m = 0.75;
 
 /// The sightings as free flight explains them, and as other hypotheses do.
 struct FlightHypotheses {

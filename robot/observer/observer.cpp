@@ -36,6 +36,7 @@ msg::KickOutcome message(const TrackedShot& shot) {
   out.bounced = shot.verdict.bounced;
   out.residual_sd_m = shot.verdict.residual_sd_m.wire();
   out.release_late_s = shot.verdict.release_late_s.wire();
+  out.p_saved = shot.verdict.p_saved.wire();
   return out;
 }
 

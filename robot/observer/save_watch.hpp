@@ -4,19 +4,23 @@
 
 namespace trivela::robot {
 
-/// How often a ball between posts and bar comes back, since somebody keeps the goal: learned from the shots that are
-/// surely on target. 0.005 until two of them came back, then the share of them that did. A ball that comes back from
-/// near a post may then be a save as well as the post.
+/// How often a ball between posts and bar is saved, learned from the shots seen so far. With S the sum of p_saved and N
+/// that of p_on_target, and a mean of 0.005 before anything is seen, worth two shots:
+///
+///     ratio = (0.01 + S) / (2 + N)
 class SaveWatch {
  public:
   void learn(const ShotVerdict& verdict) {
-    if (verdict.outcome != kicking::Outcome::kOnTarget) return;
-    ++(verdict.came_back ? saved_ : passed_);
+    if (!verdict.p_saved || !verdict.probabilities) return;
+    saved_ += *verdict.p_saved;
+    on_target_ += (*verdict.probabilities)[static_cast<std::size_t>(kicking::Outcome::kOnTarget)];
   }
-  double ratio() const { return saved_ < 2 ? ShotTrack{}.save_ratio : saved_ / static_cast<double>(saved_ + passed_); }
+  double ratio() const { return (kShots * ShotTrack{}.save_ratio + saved_) / (kShots + on_target_); }
 
  private:
-  int saved_ = 0, passed_ = 0;
+  static constexpr double kShots = 2.0;
+  double saved_ = 0.0;
+  double on_target_ = 0.0;
 };
 
 }  // namespace trivela::robot

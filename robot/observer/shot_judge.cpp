@@ -24,6 +24,7 @@ constexpr double kSlowestClimb_mps = 1.5;  // of a ball that leaves the floor by
 constexpr double kBlockedAtOnce = 0.65;   // of them: before the ball was first seen in flight
 constexpr double kStopped_per_s = 0.004;  // the referee stops the game for something else while the ball flies
 constexpr double kAgainstTheEnd = 1e-4;   // the tracker saw the ball on the other side of the line
+constexpr double kAtLeastSaved = 0.1;     // of the balls that somebody stops right before the line: hardly anybody else stands
 constexpr double kSystematic_m = 0.01;    // of the crossing: goal, camera and ball are not known better
 constexpr double kRestDoubt_mps = 0.15;
 constexpr double kUntouched = 0.9;  // probability from which on a flight tells of the kicker
@@ -94,6 +95,8 @@ double& of(OutcomeProbabilities& p, Outcome outcome) { return p[static_cast<std:
 /// Shares of the hypotheses, their sum not yet 1; `nothing` is that of none of the outcomes.
 struct Weights {
   OutcomeProbabilities outcome{};
+  double saved = 0.0;        ///< of the share on target
+  double saved_early = 0.0;  ///< of that share, by a keeper before its line
   double nothing = 0.0;
 };
 
@@ -106,7 +109,31 @@ void weigh_crossing(const PlaneCrossing& crossing, double log_passed, double log
   for (const Outcome outcome : {Outcome::kWideLeft, Outcome::kWideRight, Outcome::kOver})
     of(weights.outcome, outcome) = passed * of(p, outcome);
   for (const Outcome outcome : {Outcome::kPost, Outcome::kBar}) of(weights.outcome, outcome) = back * of(p, outcome);
-  of(weights.outcome, Outcome::kOnTarget) = (passed + save_ratio * back) * of(p, Outcome::kOnTarget);
+  weights.saved = save_ratio * back * of(p, Outcome::kOnTarget);
+  of(weights.outcome, Outcome::kOnTarget) = passed * of(p, Outcome::kOnTarget) + weights.saved;
+}
+
+/// A keeper before its line turned the ball, in `turn` rather than at another moment of its way there.
+void weigh_save(const Turn& turn, double likelihood, double save_ratio, const kicking::Goal& goal, Weights& weights) {
+  const PlaneCrossing& to = *turn.crossing;
+  const double depth_s = kKeeperDepth_m / std::max(0.1, to.ball.y().v_mps);
+  const OutcomeProbabilities p = kicking::crossing_probabilities(to.x_m, std::hypot(to.sd_x_m, kSystematic_m), to.z_m,
+                                                                 std::hypot(to.sd_z_m, kSystematic_m), goal);
+  const double saved = std::max(save_ratio, kAtLeastSaved) * std::min(1.0, turn.within_s / depth_s) * likelihood *
+                       p[static_cast<std::size_t>(Outcome::kOnTarget)];
+  weights.saved += saved;
+  weights.saved_early += saved;
+  of(weights.outcome, Outcome::kOnTarget) += saved;
+}
+
+/// Where the ball crossed, or was to cross where a keeper before its line stopped it.
+const std::optional<PlaneCrossing>& crossing_of(const FlightHypotheses& told, bool saved_early) {
+  if (!saved_early) return told.crossing;
+  const Turn* likeliest = nullptr;
+  for (const Turn& turn : told.turns) {
+    if (turn.crossing && (likeliest == nullptr || turn.log_likelihood > likeliest->log_likelihood)) likeliest = &turn;
+  }
+  return likeliest->crossing;
 }
 
 /// Probability that the ball had come to the line when the sightings ended.
@@ -149,6 +176,7 @@ Weights weigh(const FlightHypotheses& told, const ShotTrack& track, const kickin
     const Turn& turn = told.turns[i];
     const double share = i == 0 ? kBlockedAtOnce : (1.0 - kBlockedAtOnce) * turn.within_s / whole_s;
     blocked += kTurned * share * std::exp(turn.log_likelihood - best);
+    if (turn.crossing) weigh_save(turn, std::exp(turn.log_likelihood - best), track.save_ratio, goal, weights);
   }
   if (ended_free && track.end == FlightEnd::kTakenAway)
     blocked += kTurned * (1.0 - kBlockedAtOnce) * std::max(0.0, end_s - told.last_t_s) / whole_s * free;
@@ -171,6 +199,7 @@ ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const 
   const double sum = std::accumulate(weights.outcome.begin(), weights.outcome.end(), weights.nothing);
   if (!(sum > 0.0)) return verdict;
   for (double& p : weights.outcome) p /= sum;
+  verdict.p_saved = weights.saved / sum;
   const auto likeliest = std::max_element(weights.outcome.begin(), weights.outcome.end());
   const bool turned = *likeliest == of(weights.outcome, Outcome::kBlocked) && *likeliest >= settings.label_probability;
   if (track.sightings.size() < kFewest && !turned) return {};
@@ -178,15 +207,14 @@ ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const 
     verdict.outcome = static_cast<Outcome>(likeliest - weights.outcome.begin());
   const double not_there =
       of(weights.outcome, Outcome::kBlocked) + of(weights.outcome, Outcome::kShort) + weights.nothing / sum;
-  if (told->crossing && not_there < 0.5) {
-    verdict.x_cross_m = told->crossing->x_m;
-    verdict.z_cross_m = told->crossing->z_m;
-    verdict.sd_cross_m = std::max(told->crossing->sd_x_m, told->crossing->sd_z_m);
+  const double saved_early = weights.saved_early / sum;
+  if (const auto& crossing = crossing_of(*told, saved_early > 0.5); crossing && not_there < 0.5) {
+    verdict.x_cross_m = crossing->x_m;
+    verdict.z_cross_m = crossing->z_m;
+    verdict.sd_cross_m = std::max(crossing->sd_x_m, crossing->sd_z_m);
   }
   verdict.probabilities = weights.outcome;
-  verdict.came_back =
-      track.end == FlightEnd::kThrownBack || (told->seen_after_crossing && told->log_thrown_back > told->log_passed);
-  if (of(weights.outcome, Outcome::kBlocked) < 1.0 - kUntouched)
+  if (of(weights.outcome, Outcome::kBlocked) + saved_early < 1.0 - kUntouched)
     verdict.parabola = parabola_of(airborne, track.ball_sd_m, goal.y_m);
   return verdict;
 }

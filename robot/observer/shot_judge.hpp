@@ -35,7 +35,7 @@ struct ShotVerdict {
   bool bounced = false;                    ///< it touched the floor before the line, or before it was seen last
   kicking::Maybe residual_sd_m;
   kicking::Maybe release_late_s;  ///< after release_t_ns of the track, by the flight
-  bool came_back = false;         ///< from the plane of the goal, rather than into it
+  kicking::Maybe p_saved;         ///< probability that it was on target and a keeper stopped it; none: not computed
 };
 
 /// How the sightings ended.
@@ -56,14 +56,14 @@ struct ShotTrack {
   double expected_speed_mps = 0.0;      ///< over ground, that the kick should have given
   kicking::Maybe expected_climb_mps{};  ///< the same upwards; none: not known
   double ball_sd_m = 0.03;              ///< of a sighting
-  double save_ratio = 0.005;            ///< of the balls between posts and bar: a keeper throws them back
+  double save_ratio = 0.005;            ///< of the balls between posts and bar: a keeper stops them
 };
 
 /// Weighs the outcomes by their likelihood in the light of the sightings:
 ///
 ///     free flight to the line (FlightFilter), there clean or past the frame: it flies on; post or bar: it comes back
-///     (a keeper's save, as often as save_ratio); free flight and rest: short; an opponent turned it between two
-///     sightings: blocked.
+///     (a keeper's save, as often as save_ratio); free flight and rest: short; somebody turned it between two
+///     sightings: blocked, or within kKeeperDepth_m of the line, where it was to cross on target, a keeper's save.
 ///
 /// Where the crossing may lie is a normal distribution over the regions of classify(); what followed the crossing
 /// decides between the regions that let a ball pass and those that throw it back. The likeliest outcome is given where

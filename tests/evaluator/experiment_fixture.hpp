@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ struct LoggedKick {
   double distance_m = 4.0;
   bool saved = false;    ///< by the simulator's truth
   bool bounced = false;  ///< by the simulator's truth
+  double p_saved = std::nan("");  ///< as observed
 };
 
 inline const LoggedKick kIn{"on_target", "on_target", 4.0}, kOut{"over", "over", 5.0};
@@ -43,7 +45,7 @@ class TestExperiment {
                              {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal", "order_t_ns", "fired_t_ns",
                               "release_t_ns", "received_steady_ns", "fired_steady_ns", "power"})),
         outcomes_(log_.table("kick_outcomes",
-                             {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target", "observations"})),
+                             {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target", "observations", "p_saved"})),
         truths_(log_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
                                            "release_t_ns", "release_x_m", "release_y_m", "release_vx_mps",
                                            "release_vy_mps", "release_vz_mps", "saved", "bounced"})),
@@ -104,7 +106,7 @@ class TestExperiment {
     decision(half, id, policy, probability, kick->distance_m, kick_id);
     row(receipts_, {robot_id, seq_, t_ns, kick_id, Int{1}, "none", t_ns, t_ns, t_ns, Int{0}, Int{0}}, {20.0});
     if (!kick->observed.empty()) {
-      row(outcomes_, {robot_id, seq_, t_ns, kick_id, kick->observed, Int{kick->observed == "on_target"}, Int{9}}, {});
+      row(outcomes_, {robot_id, seq_, t_ns, kick_id, kick->observed, Int{kick->observed == "on_target"}, Int{9}}, {kick->p_saved});
     }
     auto& t = log_.row(truths_, session_id_);
     for (const Int value : {robot_id, seq_, t_ns, kick_id, half, id}) t.integer(value);

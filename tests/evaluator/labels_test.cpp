@@ -193,7 +193,7 @@ TEST_F(Labels, WhatIsNoneIsRefusedAndNothingIsAdded) {
   Additions additions(path());
   const auto kicks = named_kicks(Reader(path()));
   const auto refused = [&](const log::Label& wrong) { return why_refused([&] { additions.add(wrong, 1000); }); };
-  EXPECT_THAT(refused(label(kicks[0], "goal")), HasSubstr("'goal' is none of on_target, wide_left"));
+  EXPECT_THAT(refused(label(kicks[0], "in")), HasSubstr("'in' is none of on_target, wide_left"));
   EXPECT_THAT(refused(label(kicks[0], "own_half")), HasSubstr("is none of"));
   EXPECT_THAT(refused(label(kicks[0], "over", " ")), HasSubstr("somebody must say so"));
   EXPECT_THAT(refused(label(kicks[0], "over", std::string(201, 'a'))), HasSubstr("201 bytes"));

@@ -102,7 +102,7 @@ void say_afterwards(const std::filesystem::path& path) {
     session_id = of;
     t_ns = at;
   });
-  log::Additions(path).add(log::Label{session_id, 1, 1, t_ns, "on_target", "Ada", "video 12:34"}, kSecond_ns);
+  log::Additions(path).add(log::Label{session_id, 1, 1, t_ns, "saved", "Ada", "video 12:34"}, kSecond_ns);
 }
 
 /// A match in which every metric finds something.

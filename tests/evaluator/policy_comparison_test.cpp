@@ -59,7 +59,7 @@ class PolicyComparisonTest : public LogTest {
 
 // Six matches of ten opportunities, on target in all of them. `low` bounces in and is saved in eight, `high` in three.
 void write_saves(const std::filesystem::path& path) {
-  const LoggedKick saved{"on_target", "on_target", 4.0, true, true}, goal = kIn;
+  const LoggedKick saved{"on_target", "on_target", 4.0, true, true, 0.9}, goal{"on_target", "on_target", 4.0, false, false, 0.1};
   TestExperiment experiment(path, 6);
   for (std::uint32_t match = 0; match < 6; ++match) {
     experiment.begin();
@@ -86,9 +86,9 @@ TEST_F(PolicyComparisonTest, GoalsAreCountedPastTheKeeperBesideWhatIsInside) {
   ASSERT_TRUE(pair.goals->clustered);
   EXPECT_GT(pair.goals->clustered->ci.lo, 0.3);
   const std::string text = to_text(result);
-  EXPECT_THAT(text, HasSubstr("Goals: past the keeper, by the simulator's truth"));
+  EXPECT_THAT(text, HasSubstr("Goals: inside and not saved, observed"));
   EXPECT_THAT(text, HasSubstr("by the simulator's truth: low 48 of 60, high 18 of 60"));
-  EXPECT_THAT(text, Not(HasSubstr("as observed: low"))) << "no observer said it";
+  EXPECT_THAT(text, HasSubstr("saved by a keeper, of those inside, as observed: low 48 of 60, high 18 of 60"));
   EXPECT_THAT(to_json(result), HasSubstr("\"goals_per_opportunity\""));
 }
 

@@ -44,7 +44,7 @@ Report full_report() {
       row.kicks_by_outcome[outcome] = n += 2;
     for (const std::string& miss : kMisses) row.kicks_by_outcome[miss] = n += 3;
     row.doubt = {0.25 + static_cast<double>(n), 0.75};
-    row.bounces = {n + 1, n, n + 4, n + 2};
+    row.inside_kicks = {.bounced = {n + 1, n, n + 4, n + 2}, .saved = {n + 6, n + 3, n + 7, n + 5}};
     row.played_min = 1.37 * static_cast<double>(n);
     row.repeated = n + 5;
   };
@@ -173,7 +173,7 @@ std::vector<Table> tables_of(const Report& report) {
 TEST(ReportForms, MarkdownAndLatexHaveTheTablesOfTheText) {
   const Report report = full_report();
   const auto tables = tables_of(report);
-  ASSERT_EQ(tables.size(), 5u) << "Table 2, robots, misses, sightings, losses";
+  ASSERT_EQ(tables.size(), 6u) << "Table 2, goals, robots, misses, sightings, losses";
   EXPECT_EQ(markdown_tables(to_markdown(report)), tables);
   EXPECT_EQ(latex_tables(to_latex(report)), tables);
   for (const Table& table : tables) {
@@ -214,23 +214,26 @@ TEST(ReportForms, TheTablesHaveTheNumbersOfTheJson) {
   const auto tables = tables_of(report);
   for (std::size_t i = 0; i < 2; ++i) {
     expect_counts(tables[0][i + 1], 2, json["policies"][i]);
-    expect_counts(tables[1][i + 1], 3, json["robots"][i]);
-    EXPECT_EQ(tables[1][i + 1][0], json["robots"][i]["robot_id"].dump());
+    expect_counts(tables[2][i + 1], 3, json["robots"][i]);
+    EXPECT_EQ(tables[2][i + 1][0], json["robots"][i]["robot_id"].dump());
+    const JsonValue& saved = json["policies"][i]["saved"]["observed"];
+    expect_shown(tables[1][i + 1][4], saved["saved"], "saved");
+    expect_shown(tables[1][i + 1][3], saved["of"].get<int>() - saved["saved"].get<int>(), "goals");
     const JsonValue& misses = json["policies"][i]["misses"];
     for (std::size_t m = 0; m < kMisses.size(); ++m)
-      expect_shown(tables[2][i + 1][m + 2], misses[kMisses[m]], kMisses[m]);
-    expect_shown(tables[2][i + 1][kMisses.size() + 2], misses["outside"], "not said");
-    expect_shown(tables[2][i + 1][kMisses.size() + 3], misses["own_half"], "own half");
-    expect_shown(tables[2][i + 1][kMisses.size() + 4], misses["carried_too_far"], "carried too far");
+      expect_shown(tables[3][i + 1][m + 2], misses[kMisses[m]], kMisses[m]);
+    expect_shown(tables[3][i + 1][kMisses.size() + 2], misses["outside"], "not said");
+    expect_shown(tables[3][i + 1][kMisses.size() + 3], misses["own_half"], "own half");
+    expect_shown(tables[3][i + 1][kMisses.size() + 4], misses["carried_too_far"], "carried too far");
     const JsonValue& sightings = json["data_quality"]["labels"]["by_sightings"][i];
-    expect_shown(tables[3][i + 1][1], sightings["kicks"], "kicks by sightings");
-    expect_shown(tables[3][i + 1][2], sightings["unknown"], "unknown by sightings");
-    expect_shown(tables[3][i + 1][3], sightings["expected_wrong"], "wrong by sightings");
+    expect_shown(tables[4][i + 1][1], sightings["kicks"], "kicks by sightings");
+    expect_shown(tables[4][i + 1][2], sightings["unknown"], "unknown by sightings");
+    expect_shown(tables[4][i + 1][3], sightings["expected_wrong"], "wrong by sightings");
   }
   const JsonValue& stream = json["data_quality"]["streams"][0];
   std::size_t column = 0;
   for (const char* const key : {"received", "lost", "gaps", "overflow", "nan_refused", "rejected", "out_of_order"})
-    expect_shown(tables[4][1][++column], stream[key], key);
+    expect_shown(tables[5][1][++column], stream[key], key);
 }
 
 /// RFC 4180.
@@ -297,7 +300,11 @@ void expect_row(const CsvReport& csv, std::size_t row, const JsonValue& json) {
       {"observed_bounced", json["bounced"]["observed"]["bounced"]},
       {"observed_bounced_of", json["bounced"]["observed"]["of"]},
       {"truth_bounced", json["bounced"]["truth"]["bounced"]},
-      {"truth_bounced_of", json["bounced"]["truth"]["of"]}};
+      {"truth_bounced_of", json["bounced"]["truth"]["of"]},
+      {"observed_saved", json["saved"]["observed"]["saved"]},
+      {"observed_saved_of", json["saved"]["observed"]["of"]},
+      {"truth_saved", json["saved"]["truth"]["saved"]},
+      {"truth_saved_of", json["saved"]["truth"]["of"]}};
   for (const auto& [column, value] : others) expect_number(csv.of(row, column), value, column);
 }
 

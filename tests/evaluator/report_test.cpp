@@ -208,9 +208,9 @@ TEST_F(ReportOfALog, BallsThatBouncedInAreCountedApart) {
   match.close();
   const Report report = make_report(log::Reader(path()));
   EXPECT_EQ(row_of(report, "stopped").inside(), 5);
-  EXPECT_EQ(row_of(report, "stopped").bounces.truth, 5);
-  EXPECT_EQ(row_of(report, "stopped").bounces.truth_bounced, 2);
-  EXPECT_EQ(row_of(report, "stopped").bounces.observed, 0);
+  EXPECT_EQ(row_of(report, "stopped").inside_kicks.bounced.truth, 5);
+  EXPECT_EQ(row_of(report, "stopped").inside_kicks.bounced.truth_yes, 2);
+  EXPECT_EQ(row_of(report, "stopped").inside_kicks.bounced.observed, 0);
   EXPECT_THAT(to_text(report),
               HasSubstr("bounced before the line, of those inside, by the simulator's truth: stopped 2 of 5\n"));
   EXPECT_THAT(to_text(report), Not(HasSubstr("as observed")));

@@ -24,6 +24,8 @@ struct LabelCounts {
   int right = 0;       ///< of them
   int too_good = 0;    ///< called on target, but were not
   int too_bad = 0;     ///< were on target, but called something else
+  int inside = 0;      ///< called on target, and were
+  int saves_right = 0;  ///< of them, told rightly whether a keeper stopped them
   double doubt = 0.0;  ///< sum of 1 - p of the given labels: how many should be wrong
   int matches = 0;
   int covered = 0;  ///< matches whose bounds hold the true share on target
@@ -88,6 +90,12 @@ inline constexpr OtherWorld kOtherWorlds[] = {
        w.ball.radius_m = 0.108;
        w.flight_camera.bias_x_m = w.flight_camera.bias_y_m = w.flight_camera.bias_z_m = 0.04;
      }},
+    {"a keeper", [](sim::Scenario& w) { w.keeper.enabled = true; }},
+    {"a keeper 0.5 m before its line",
+     [](sim::Scenario& w) {
+       w.keeper.enabled = true;
+       w.keeper.advance_m = 0.5;
+     }},
     {"flat kicks", [](sim::Scenario& w) { kick_flat(w, 0.3); }, true},
     {"flat kicks, hardly any friction", [](sim::Scenario& w) { kick_flat(w, 0.05); }, true},
     {"flat kicks, twice the friction", [](sim::Scenario& w) { kick_flat(w, 0.6); }, true},
@@ -143,6 +151,10 @@ inline void add_match(const GoalCamera& camera, std::uint64_t seed, std::uint32_
     match.known.inside += called_in;
     (called_in ? match.doubt.inside : match.doubt.outside) += called_in ? 1.0 - out.p_on_target : out.p_on_target;
     ++counts.given;
+    if (called_in && is_in) {
+      ++counts.inside;
+      counts.saves_right += (out.p_saved > 0.5 * out.p_on_target) == truth.saved;
+    }
     counts.doubt += 1.0 - p[static_cast<int>(label)];
     counts.right += label == true_one;
     counts.too_good += called_in && !is_in;

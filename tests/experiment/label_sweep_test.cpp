@@ -47,6 +47,8 @@ TEST(LabelSweep, LabelsAreRightAndTheBoundsHoldWhereBeliefsAreWrong) {
         << world.what << ": " << counts.right << " of " << counts.given;
     EXPECT_GE(clopper_pearson({counts.covered, counts.matches}, kAlmostCertain).hi, 0.95)
         << world.what << ": " << counts.covered << " of " << counts.matches;
+    EXPECT_GE(clopper_pearson({counts.saves_right, counts.inside}, kAlmostCertain).hi, 0.97)
+        << world.what << ": saves of " << counts.saves_right << " of " << counts.inside;
   }
 }
 

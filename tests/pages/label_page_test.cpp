@@ -97,7 +97,7 @@ TEST_F(LabelPage, RefusesAnotherHostsName) {
 
 TEST_F(LabelPage, RefusesLabelsThatMakeNoSense) {
   for (const std::string& body :
-       std::vector<std::string>{"", "[]", "null", "{}", "{\"kick_id\": 1}", label(1, "goal").dump(), label(1, 7).dump(),
+       std::vector<std::string>{"", "[]", "null", "{}", "{\"kick_id\": 1}", label(1, "in").dump(), label(1, 7).dump(),
                                 label(1, "over", " ").dump(), label(1, nullptr).dump(),
                                 label(1, "over", std::string(300, 'a')).dump(), std::string(5000, '[')}) {
     const auto [status, said] = post(body, headers());

@@ -63,27 +63,53 @@ TEST(ShotJudge, WhereAKeeperSavesABallThatComesBackFromNearThePostMayBeASave) {
   };
   EXPECT_LT(p_on_target(0.005), 0.3);
   EXPECT_GT(p_on_target(0.9), 0.6);
-  EXPECT_TRUE(judge_shot(track, kGoal, kSettings).came_back);
+  const ShotVerdict back = judge_shot(track, kGoal, kSettings);
+  EXPECT_GT(*back.p_saved, 0.99 * back.probabilities->front()) << "of what is on target and came back";
   track.end = FlightEnd::kBeyondLine;
-  EXPECT_FALSE(judge_shot(track, kGoal, kSettings).came_back);
+  EXPECT_LT(*judge_shot(track, kGoal, kSettings).p_saved, 0.01);
 }
 
-TEST(SaveWatch, LearnsFromBallsThatAreSurelyOnTarget) {
+// The sightings of a flight that somebody turned `before_m` before the line, and what came of it.
+ShotVerdict turned(double before_m, double x_cross_m, double z_cross_m, double save_ratio) {
+  auto seen = towards(x_cross_m, z_cross_m, 0.5 - before_m / 8.0);
+  for (int i = 0; i < 8; ++i) {
+    const kicking::Sighting last = seen.back();
+    seen.push_back({last.t_ns + 20'000'000, last.ball_m + Eigen::Vector3d{0.01, i == 0 ? 0.02 : -0.05, -0.01}});
+  }
+  const ShotTrack track{.sightings = seen,
+                        .end = FlightEnd::kTakenAway,
+                        .end_t_ns = seen.back().t_ns + 20'000'000,
+                        .expected_speed_mps = 8.0,
+                        .ball_sd_m = 0.01,
+                        .save_ratio = save_ratio};
+  return judge_shot(track, kGoal, kSettings);
+}
+
+TEST(ShotJudge, ABallThatIsStoppedRightBeforeTheLineOnItsWayInIsSaved) {
+  const ShotVerdict saved = turned(0.5, 0.5, 0.4, 0.5);
+  EXPECT_EQ(saved.outcome, Outcome::kOnTarget);
+  EXPECT_GT(*saved.p_saved, 0.9);
+  EXPECT_NEAR(*saved.x_cross_m, 0.5, 0.1) << "where it was to cross";
+  EXPECT_FALSE(saved.parabola) << "it was touched";
+  EXPECT_EQ(turned(0.5, 1.6, 0.4, 0.5).outcome, Outcome::kBlocked) << "it was to go wide";
+  EXPECT_EQ(turned(1.5, 0.5, 0.4, 0.5).outcome, Outcome::kBlocked) << "no keeper stands there";
+  EXPECT_EQ(turned(0.5, 0.5, 0.4, 0.005).outcome, Outcome::kOnTarget) << "who else stands there";
+}
+
+TEST(SaveWatch, TakesTheShareOfSavesFromTheProbabilitiesOfAllShots) {
   SaveWatch watch;
-  ShotVerdict saved, post;
-  saved.outcome = Outcome::kOnTarget;
-  saved.came_back = true;
-  post.outcome = Outcome::kPost;
-  post.came_back = true;
-  watch.learn(saved);
-  for (int i = 0; i < 9; ++i) watch.learn(post);
-  EXPECT_EQ(watch.ratio(), 0.005) << "one may be chance";
-  watch.learn(saved);
-  EXPECT_EQ(watch.ratio(), 1.0);
-  ShotVerdict in;
-  in.outcome = Outcome::kOnTarget;
-  for (int i = 0; i < 6; ++i) watch.learn(in);
-  EXPECT_EQ(watch.ratio(), 0.25);
+  EXPECT_DOUBLE_EQ(watch.ratio(), 0.005);
+  ShotVerdict shot;
+  shot.probabilities.emplace();
+  watch.learn(ShotVerdict{});
+  EXPECT_DOUBLE_EQ(watch.ratio(), 0.005) << "one of which nothing is known";
+  shot.probabilities->front() = 1.0;
+  shot.p_saved = 1.0;
+  watch.learn(shot);
+  EXPECT_NEAR(watch.ratio(), 1.01 / 3.0, 1e-12);
+  shot.p_saved = 0.0;
+  for (int i = 0; i < 1000; ++i) watch.learn(shot);
+  EXPECT_NEAR(watch.ratio(), 1.01 / 1003.0, 1e-12);
 }
 
 TEST(ShotJudge, TheSameBallBeyondTheLineIsJudgedByItsCrossing) {

@@ -73,7 +73,7 @@ std::string crossing(const Mouth& mouth, std::size_t number, const KickTimeline&
 
 std::string goal_mouth_section(const PageView& view) {
   const auto& kicks = view.data.kicks;
-  std::array<std::size_t, 5> counts{};
+  OutcomeCounts counts{};
   std::size_t drawn = 0, at_edge = 0, other_goals = 0;
   if (kicks.empty()) return section("mouth", "The goal mouth", paragraphs({"There are no kicks."}));
   const Mouth mouth(kicks.front().story.goal);

@@ -9,7 +9,7 @@ namespace trivela::evaluator::page {
 
 OutcomeKind kind_of(const KickTimeline& story) {
   const std::string label = story.observed ? story.observed->outcome : "unknown";
-  if (label == "on_target") return OutcomeKind::kInside;
+  if (label == "on_target") return story.saved.value_or(false) ? OutcomeKind::kSaved : OutcomeKind::kInside;
   if (label == "post" || label == "bar") return OutcomeKind::kFrame;
   if (label == "blocked") return OutcomeKind::kBlocked;
   if (label == "unknown" || label.empty()) return OutcomeKind::kUnknown;
@@ -22,6 +22,9 @@ std::string outcome_mark(OutcomeKind kind, const ChartPoint& at, double size) {
     case OutcomeKind::kInside:
     case OutcomeKind::kUnknown:
       return svg_circle("mark " + name, at, size);
+    case OutcomeKind::kSaved:
+      return fmt::format("<path class=\"mark {}\" d=\"M{:.1f} {:.1f}l{:.1f} {:.1f}h-{:.1f}z\"/>\n", name, at.x,
+                         at.y - 1.1 * size, 1.1 * size, 2.0 * size, 2.2 * size);
     case OutcomeKind::kFrame:
       return svg_rect("mark " + name, {at.x - 0.9 * size, at.y - 0.9 * size}, 1.8 * size, 1.8 * size);
     case OutcomeKind::kBeside:
@@ -36,11 +39,14 @@ std::string outcome_mark(OutcomeKind kind, const ChartPoint& at, double size) {
   return "";
 }
 
-std::string outcome_legend(const std::array<std::size_t, 5>& counts, double y) {
+std::string outcome_legend(const OutcomeCounts& counts, double y) {
   constexpr double kSlot = 172.0;
   std::string svg;
+  std::size_t place = 0;
   for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
-    const std::size_t row = i / 3, column = i % 3;
+    if (static_cast<OutcomeKind>(i) == OutcomeKind::kSaved && counts[i] == 0) continue;
+    const std::size_t row = place / 3, column = place % 3;
+    ++place;
     const double x = 14.0 + kSlot * static_cast<double>(column), baseline = y + 22.0 * static_cast<double>(row);
     svg += outcome_mark(static_cast<OutcomeKind>(i), {x, baseline - 5.0}, 5.0);
     svg += svg_text(x + 12.0, baseline, "start", fmt::format("{}: {}", kOutcomeNames[i].words, counts[i]));
@@ -49,12 +55,15 @@ std::string outcome_legend(const std::array<std::size_t, 5>& counts, double y) {
 }
 
 std::string outcome_words(const KickTimeline& story) {
-  return story.observed && !story.observed->outcome.empty() ? words(story.observed->outcome) : "no outcome";
+  if (!story.observed || story.observed->outcome.empty()) return "no outcome";
+  if (story.observed->outcome == "on_target" && story.saved) return *story.saved ? "saved" : "goal";
+  return words(story.observed->outcome);
 }
 
 std::string kick_words(const KickTimeline& story) {
-  return fmt::format("kick {}:{}, {}, {:.1f} m, {}", story.robot_id, story.number, story.policy, story.distance_m,
-                     outcome_words(story));
+  const std::string kind = story.kick_kind > 0 ? fmt::format(", kind {}", story.kick_kind + 1) : "";
+  return fmt::format("kick {}:{}, {}{}, {:.1f} m, {}", story.robot_id, story.number, story.policy, kind,
+                     story.distance_m, outcome_words(story));
 }
 
 }  // namespace trivela::evaluator::page

@@ -10,13 +10,14 @@
 namespace trivela::evaluator::page {
 
 /// Outcomes that figures tell apart, each by colour and by shape.
-enum class OutcomeKind : std::size_t { kInside, kFrame, kBeside, kBlocked, kUnknown };
+enum class OutcomeKind : std::size_t { kInside, kSaved, kFrame, kBeside, kBlocked, kUnknown };
 
 struct OutcomeName {
   const char* key;    ///< class of its marks
   const char* words;  ///< in legends
 };
-inline constexpr std::array<OutcomeName, 5> kOutcomeNames{{{"inside", "on target"},
+inline constexpr std::array<OutcomeName, 6> kOutcomeNames{{{"inside", "on target"},
+                                                           {"saved", "saved"},
                                                            {"frame", "post or bar"},
                                                            {"beside", "wide, over, short"},
                                                            {"blocked", "blocked"},
@@ -25,13 +26,16 @@ inline constexpr std::array<OutcomeName, 5> kOutcomeNames{{{"inside", "on target
 /// Of a kick's label; without one it is not known. "outside" and what is no goal by the rules are beside.
 OutcomeKind kind_of(const KickTimeline& story);
 
-/// Its mark: a dot, a square, a diamond, a cross or a ring.
+/// Its mark: a dot, a triangle, a square, a diamond, a cross or a ring.
 std::string outcome_mark(OutcomeKind kind, const ChartPoint& at, double size);
 
-/// A line of samples with how many there are of each, from `y`; returns the SVG.
-std::string outcome_legend(const std::array<std::size_t, 5>& counts, double y);
+/// How many kicks there are of each.
+using OutcomeCounts = std::array<std::size_t, kOutcomeNames.size()>;
 
-/// "on target" of "on_target"; "no outcome" where none came.
+/// Two lines of samples with how many there are of each, from `y`; saves where there are some. Returns the SVG.
+std::string outcome_legend(const OutcomeCounts& counts, double y);
+
+/// "wide left" of "wide_left", "goal" or "saved" of one on target where that is known; "no outcome" where none came.
 std::string outcome_words(const KickTimeline& story);
 
 /// "kick 1:7, moving, 5.2 m, post": for who points at a mark.

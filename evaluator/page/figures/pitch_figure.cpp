@@ -87,7 +87,7 @@ bool has_place(const KickTimeline& story) { return story.distance_m > 0.0; }
 
 /// What is drawn, and how much of it.
 struct DrawnPlaces {
-  std::array<std::size_t, 5> kicks{};  ///< by outcome
+  OutcomeCounts kicks{};  ///< by outcome
   std::size_t held = 0, would = 0, off_field = 0;
   double low_m = 0.0;  ///< y of the lowest
 
