@@ -128,9 +128,10 @@ struct Guard {
 struct Keeper {
   bool enabled = false;
   Guard guard;
-  double side_extension_m = 0.08;  ///< of a frame that it pushes out to one side ...; assumption: 60 x 60 x 90 cm
-  double up_extension_m = 0.1;     ///< ... or up, one at a time; assumption, the same
-  double extension_s = 0.1;        ///< until the frame is out; assumption
+  double side_extension_m =
+      0.08;  ///< of a frame that it pushes out to one side ...; rules of 2016, RC-4.2.0: 60 x 60 x 90 cm
+  double up_extension_m = 0.1;  ///< ... or up, one at a time; the same rule
+  double extension_s = 0.1;     ///< until the frame is out; assumption
   double advance_m = 0.0;  ///< it stands so far before the goal line, on the line from the ball to the goal's middle
   double guess_m = 0.0;    ///< as the ball leaves it drives so far to a side drawn by lot; 0: it waits and looks
 };

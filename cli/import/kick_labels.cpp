@@ -64,9 +64,10 @@ void set_outcome(KickLabel& kick, const std::string& word) {
   if (!goal && !saved && word != "inside" && word != "outside") {
     const auto outcome = bus::from_label<msg::Outcome>(word);
     if (!outcome || word == "on_target") {
-      throw CellError("outcome", word,
-                      "is none of goal, saved, inside, outside, unknown, wide_left, wide_right, over, short, post, bar, "
-                      "blocked");
+      throw CellError(
+          "outcome", word,
+          "is none of goal, saved, inside, outside, unknown, wide_left, wide_right, over, short, post, bar, "
+          "blocked");
     }
     kick.outcome = *outcome;
     kick.outside = *outcome != msg::OUTCOME_UNKNOWN;

@@ -60,11 +60,11 @@ msg::KickOutcome outcome_of(const KickLabel& label) {
   outcome.robot_id = static_cast<std::uint8_t>(label.robot_id);
   outcome.outcome = label.outcome;
   outcome.on_target = label.outcome == msg::OUTCOME_ON_TARGET;
-  for (double* const unknown : {&outcome.x_cross_m, &outcome.z_cross_m, &outcome.sd_cross_m, &outcome.exit_speed_mps,
-                                &outcome.exit_elevation_rad, &outcome.p_on_target, &outcome.p_wide_left,
-                                &outcome.p_wide_right, &outcome.p_over, &outcome.p_short, &outcome.p_post,
-                                &outcome.p_bar, &outcome.p_blocked, &outcome.residual_sd_m, &outcome.release_late_s,
-                                &outcome.p_saved})
+  for (double* const unknown :
+       {&outcome.x_cross_m, &outcome.z_cross_m, &outcome.sd_cross_m, &outcome.exit_speed_mps,
+        &outcome.exit_elevation_rad, &outcome.p_on_target, &outcome.p_wide_left, &outcome.p_wide_right, &outcome.p_over,
+        &outcome.p_short, &outcome.p_post, &outcome.p_bar, &outcome.p_blocked, &outcome.residual_sd_m,
+        &outcome.release_late_s, &outcome.p_saved})
     *unknown = msg::kNone;
   if (label.saved) outcome.p_saved = *label.saved ? 1.0 : 0.0;
   if (label.outside && label.outcome == msg::OUTCOME_UNKNOWN) outcome.p_on_target = 0.0;

@@ -14,8 +14,8 @@ std::string line(std::span<const NamedInside> groups, const char* what, SaidOfIn
   for (const NamedInside& group : groups) {
     const SaidOfInside& of = group.inside.*said;
     if ((truth ? of.truth : of.observed) == 0) continue;
-    parts.push_back(fmt::format("{} {} of {}", group.name, truth ? of.truth_yes : of.observed_yes,
-                                truth ? of.truth : of.observed));
+    parts.push_back(
+        fmt::format("{} {} of {}", group.name, truth ? of.truth_yes : of.observed_yes, truth ? of.truth : of.observed));
   }
   if (parts.empty()) return "";
   return fmt::format("  {}, of those inside, {}: {}\n", what, truth ? "by the simulator's truth" : "as observed",

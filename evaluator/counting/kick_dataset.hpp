@@ -41,8 +41,8 @@ struct Opportunity {
   std::uint32_t calibration =
       0;               ///< number of the calibration that the robots were calibrated on; 0 where none is named
   double doubt = 0.0;  ///< probability that a kick called inside was not, or one called outside was
-  std::optional<bool> bounced{};        ///< it touched the floor before the line, as observed; none: not said
-  std::optional<bool> truth_bounced{};  ///< the same by the simulator's truth
+  std::optional<bool> bounced{};         ///< it touched the floor before the line, as observed; none: not said
+  std::optional<bool> truth_bounced{};   ///< the same by the simulator's truth
   std::optional<bool> observed_saved{};  ///< a keeper stopped it, as observed or said by hand; none: not known
   std::optional<bool> truth_saved{};     ///< the same by the simulator's truth
   std::optional<bool> saved{};           ///< by what the ending is of
@@ -64,7 +64,7 @@ struct KickDataset {
   std::vector<double> planned_shares;  ///< of the groups, where drawn at random with constant chances; else empty
   bool simulated = false;
   std::string outcome = "observed";  ///< "observed", "truth", or "labelled": somebody watched
-  bool keeper = false;  ///< a keeper saved something in these matches: goals are fewer than balls inside
+  bool keeper = false;               ///< a keeper saved something in these matches: goals are fewer than balls inside
   bool blocked_apart = false;        ///< blocked kicks stand apart
   std::vector<std::string> remarks;  ///< sentences on what was read
 };

@@ -95,8 +95,8 @@ struct PageData {
   std::string no_comparison;
   std::vector<HeldReason> held;
   std::vector<HeldChance> held_chances;
-  std::vector<std::string> shadows;  ///< policies that rode along
-  std::vector<PredictedChance> predictions;       ///< of balls on target
+  std::vector<std::string> shadows;              ///< policies that rode along
+  std::vector<PredictedChance> predictions;      ///< of balls on target
   std::vector<PredictedChance> predicted_goals;  ///< past a tracked keeper, where it is known what came
   DriftReport drift;
   std::vector<LogChange> changes;   ///< one less than there are logs

@@ -131,8 +131,8 @@ std::string drift_table(const std::vector<HeightError>& errors) {
   return rows.size() > 1 ? details("The same in numbers", table("Height, observed minus predicted", rows)) : "";
 }
 
-std::string reliability_figure(const PageView& view, const std::vector<PredictedChance>& predictions,
-                               const char* id, const std::string& what) {
+std::string reliability_figure(const PageView& view, const std::vector<PredictedChance>& predictions, const char* id,
+                               const std::string& what) {
   struct Band {
     stats::Counts counts;
     double p_sum = 0.0;

@@ -47,9 +47,9 @@ struct KickTimeline {
   std::optional<double> power;
   kicking::Pose robot{};                               ///< at the decision
   Eigen::Vector2d target_m = Eigen::Vector2d::Zero();  ///< aim point
-  std::optional<bool> bounced;  ///< it touched the floor before the line, as observed
-  std::optional<bool> saved;    ///< on target, and a keeper stopped it: as observed or said by hand
-  int kick_kind = 0;            ///< of the robot's kinds of kick, in the order of its file
+  std::optional<bool> bounced;                         ///< it touched the floor before the line, as observed
+  std::optional<bool> saved;  ///< on target, and a keeper stopped it: as observed or said by hand
+  int kick_kind = 0;          ///< of the robot's kinds of kick, in the order of its file
   kicking::Goal goal{};
   double side_line_x_m = 6.0;
   std::vector<TimelinePose> path;       ///< of the robot

@@ -69,10 +69,12 @@ CrossingSpread crossing_spread(const ReleaseState& release, const KickExit& kick
   return out;
 }
 
-double p_on_target(const CrossingSpread& crossing, double bounce_ratio, const Goal& goal, const Ball& ball) {
+double p_on_target(const CrossingSpread& crossing, double bounce_ratio, const Goal& goal, const Ball& ball,
+                   double least) {
   const double side = goal.clean_half_width_m(ball);
   const double between =
       normal_below(side - crossing.x_m, crossing.sd_x_m) - normal_below(-side - crossing.x_m, crossing.sd_x_m);
+  if (between <= least) return 0.0;
   const double below = normal_below(goal.clean_height_m(ball) - crossing.z_m, crossing.sd_z_m);
   const double floor = normal_below(ball.radius_m - crossing.z_m, crossing.sd_z_m);
   return std::max(0.0, between * (below - (1.0 - bounce_ratio) * floor));

@@ -69,7 +69,10 @@ CrossingSpread crossing_spread(const ReleaseState& release, const KickExit& kick
 ///
 ///     P = (Phi((x_clean - x) / sd_x) - Phi((-x_clean - x) / sd_x))
 ///         (Phi((z_clean - z) / sd_z) - (1 - bounce_ratio) Phi((r - z) / sd_z)).
-double p_on_target(const CrossingSpread& crossing, double bounce_ratio, const Goal& goal, const Ball& ball = {});
+///
+/// Of one that is `least` or below it may say 0.
+double p_on_target(const CrossingSpread& crossing, double bounce_ratio, const Goal& goal, const Ball& ball = {},
+                   double least = 0.0);
 
 /// Height at the line that maximises p_on_target over z for a given sd_z: where the bar's density is (1 - bounce_ratio)
 /// times the floor's,

@@ -40,14 +40,15 @@ double keeper_reach_m(const KeeperConfig& keeper, double flight_s, const Ball& b
 }
 
 GoalChance goal_chance(const CrossingSpread& crossing, double bounce_ratio, const KeeperConfig& keeper,
-                       const KeeperPlace& place, const Goal& goal, const Ball& ball) {
+                       const KeeperPlace& place, const Goal& goal, const Ball& ball, double least) {
   const double post_m = goal.clean_half_width_m(ball), x = crossing.x_m, sd_x = crossing.sd_x_m;
   const double inside_right = normal_below(post_m - x, sd_x), outside_left = normal_below(-post_m - x, sd_x);
   const double between = inside_right - outside_left;
+  if (between <= least) return {};
   const double below = normal_below(goal.clean_height_m(ball) - crossing.z_m, crossing.sd_z_m);
   const double in_height = below - (1.0 - bounce_ratio) * normal_below(ball.radius_m - crossing.z_m, crossing.sd_z_m);
   GoalChance chance{.p_on_target = std::max(0.0, between * in_height)};
-  if (!(chance.p_on_target > 0.0)) return chance;
+  if (chance.p_on_target <= least) return {};
   const double reach_m = keeper_reach_m(keeper, crossing.t_flight_s, ball), sd_m = std::hypot(keeper.sd_m, place.sd_m);
   const double beside = p_beside(x, sd_x, place.x_m + reach_m, sd_m, post_m, inside_right, outside_left) +
                         p_beside(-x, sd_x, reach_m - place.x_m, sd_m, post_m, 1.0 - outside_left, 1.0 - inside_right);

@@ -44,8 +44,8 @@ struct GoalChance {
 /// - over it: the ball's lower side is above height_m;
 /// - or the keeper misses it, with miss_ratio.
 ///
-/// x and z are independent.
+/// x and z are independent. Where p_goal is `least` or below both may be 0.
 GoalChance goal_chance(const CrossingSpread& crossing, double bounce_ratio, const KeeperConfig& keeper,
-                       const KeeperPlace& place, const Goal& goal, const Ball& ball = {});
+                       const KeeperPlace& place, const Goal& goal, const Ball& ball = {}, double least = 0.0);
 
 }  // namespace trivela::kicking

@@ -16,8 +16,8 @@ namespace trivela::log {
 /// What may be said of a kick by hand: the observer's outcomes, "goal" and "saved" of one on target, and "outside" of a
 /// miss that is not said how.
 inline constexpr std::array<std::string_view, 12> kLabels = {"on_target", "wide_left", "wide_right", "over",
-                                                             "short", "post", "bar", "blocked", "outside",
-                                                             "unknown", "goal", "saved"};
+                                                             "short",     "post",      "bar",        "blocked",
+                                                             "outside",   "unknown",   "goal",       "saved"};
 
 /// What notes are about.
 inline constexpr std::array<std::string_view, 4> kNoteKinds = {"match", "opponent", "venue", "note"};

@@ -23,7 +23,7 @@ struct KnownKick {
     kicking::Maybe power;
     kicking::Maybe p_on_target;
     std::uint8_t kick_kind = 0;  ///< of the robot's kinds of kick, in the order of its file
-    bool goal_counts = true;  ///< by the rules, if the ball goes in
+    bool goal_counts = true;     ///< by the rules, if the ball goes in
   };
   struct Answered {
     std::int64_t t_ns = 0;

@@ -119,7 +119,8 @@ std::string refusal_of(const std::string& rows, const std::string& head = "time,
 TEST(KickLabels, BadRowsAreRefusedWithFileLineColumnAndValue) {
   EXPECT_EQ(refusal_of(",moving,inside,A\n"), "");
   EXPECT_EQ(refusal_of(",moving,inside,A\n,moving,in,A\n"),
-            "k.csv:3: column outcome: 'in' is none of goal, saved, inside, outside, unknown, wide_left, wide_right, over, short, "
+            "k.csv:3: column outcome: 'in' is none of goal, saved, inside, outside, unknown, wide_left, wide_right, "
+            "over, short, "
             "post, bar, blocked");
   EXPECT_THAT(refusal_of(",fast,inside,A\n"), HasSubstr("k.csv:2: column policy: 'fast' is none of stopped, moving"));
   EXPECT_THAT(refusal_of(",turn_drive,inside,A\n"), HasSubstr("column policy: 'turn_drive' is none of"));

@@ -17,8 +17,8 @@ struct LoggedKick {
   std::string observed = "on_target";  ///< empty: no outcome came
   std::string truth = "on_target";
   double distance_m = 4.0;
-  bool saved = false;    ///< by the simulator's truth
-  bool bounced = false;  ///< by the simulator's truth
+  bool saved = false;             ///< by the simulator's truth
+  bool bounced = false;           ///< by the simulator's truth
   double p_saved = std::nan("");  ///< as observed
 };
 
@@ -44,8 +44,8 @@ class TestExperiment {
         receipts_(log_.table("kick_receipts",
                              {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal", "order_t_ns", "fired_t_ns",
                               "release_t_ns", "received_steady_ns", "fired_steady_ns", "power"})),
-        outcomes_(log_.table("kick_outcomes",
-                             {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target", "observations", "p_saved"})),
+        outcomes_(log_.table("kick_outcomes", {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target",
+                                               "observations", "p_saved"})),
         truths_(log_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
                                            "release_t_ns", "release_x_m", "release_y_m", "release_vx_mps",
                                            "release_vy_mps", "release_vz_mps", "saved", "bounced"})),
@@ -106,7 +106,8 @@ class TestExperiment {
     decision(half, id, policy, probability, kick->distance_m, kick_id);
     row(receipts_, {robot_id, seq_, t_ns, kick_id, Int{1}, "none", t_ns, t_ns, t_ns, Int{0}, Int{0}}, {20.0});
     if (!kick->observed.empty()) {
-      row(outcomes_, {robot_id, seq_, t_ns, kick_id, kick->observed, Int{kick->observed == "on_target"}, Int{9}}, {kick->p_saved});
+      row(outcomes_, {robot_id, seq_, t_ns, kick_id, kick->observed, Int{kick->observed == "on_target"}, Int{9}},
+          {kick->p_saved});
     }
     auto& t = log_.row(truths_, session_id_);
     for (const Int value : {robot_id, seq_, t_ns, kick_id, half, id}) t.integer(value);

@@ -59,7 +59,8 @@ class PolicyComparisonTest : public LogTest {
 
 // Six matches of ten opportunities, on target in all of them. `low` bounces in and is saved in eight, `high` in three.
 void write_saves(const std::filesystem::path& path) {
-  const LoggedKick saved{"on_target", "on_target", 4.0, true, true, 0.9}, goal{"on_target", "on_target", 4.0, false, false, 0.1};
+  const LoggedKick saved{"on_target", "on_target", 4.0, true, true, 0.9},
+      goal{"on_target", "on_target", 4.0, false, false, 0.1};
   TestExperiment experiment(path, 6);
   for (std::uint32_t match = 0; match < 6; ++match) {
     experiment.begin();

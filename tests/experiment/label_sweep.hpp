@@ -20,13 +20,13 @@ struct GoalCamera {
 /// Labels beside the simulator's truth.
 struct LabelCounts {
   int kicks = 0;
-  int given = 0;       ///< not unknown
-  int right = 0;       ///< of them
-  int too_good = 0;    ///< called on target, but were not
-  int too_bad = 0;     ///< were on target, but called something else
-  int inside = 0;      ///< called on target, and were
+  int given = 0;        ///< not unknown
+  int right = 0;        ///< of them
+  int too_good = 0;     ///< called on target, but were not
+  int too_bad = 0;      ///< were on target, but called something else
+  int inside = 0;       ///< called on target, and were
   int saves_right = 0;  ///< of them, told rightly whether a keeper stopped them
-  double doubt = 0.0;  ///< sum of 1 - p of the given labels: how many should be wrong
+  double doubt = 0.0;   ///< sum of 1 - p of the given labels: how many should be wrong
   int matches = 0;
   int covered = 0;  ///< matches whose bounds hold the true share on target
   std::map<std::pair<kicking::Outcome, kicking::Outcome>, int> confused;  ///< truth, label; where they differ

@@ -97,13 +97,13 @@ ShotFeatures LookaheadSearch::features(const DriveMotion& base, const PlannedSho
   return shot;
 }
 
-PlannedShot LookaheadSearch::planned_shot(const DriveMotion& base, double fire_after_s, bool now) {
+PlannedShot LookaheadSearch::planned_shot(const DriveMotion& base, double fire_after_s, bool now, double least) {
   PlannedShot best;
   bool found = false;
   for (std::size_t i = 0; i < kind_count_; ++i) {
     const bool stands = now ? input_.lever_kind == i : fire_after_s >= kinds_[i]->lever_s;
     if (!stands) continue;
-    const PlannedShot shot = shot_of(static_cast<std::uint8_t>(i), base, fire_after_s);
+    const PlannedShot shot = shot_of(static_cast<std::uint8_t>(i), base, fire_after_s, least);
     if (!found || worth(shot) > worth(best)) best = shot;
     found = true;
   }
@@ -154,7 +154,7 @@ double LookaheadSearch::passes(const PlannedShot& planned, double release_after_
   return p;
 }
 
-PlannedShot LookaheadSearch::shot_of(std::uint8_t kind, const DriveMotion& base, double fire_after_s) {
+PlannedShot LookaheadSearch::shot_of(std::uint8_t kind, const DriveMotion& base, double fire_after_s, double least) {
   PlannedShot out{.fire_after_s = fire_after_s, .kind = kind, .release = base.release(robot_.ball_offset_m)};
   Kind& of = *kinds_[kind];
   if (of.later_s != 0.0) {
@@ -163,10 +163,11 @@ PlannedShot LookaheadSearch::shot_of(std::uint8_t kind, const DriveMotion& base,
     out.release = later.release(robot_.ball_offset_m);
   }
   if (!may_shoot_from(config_, out.release.ball_m.y())) return out;
-  out.shot = of.model.chance(out.release, of.guess);
+  if (learned_) least = 0.0;  // which may raise it
+  out.shot = of.model.chance(out.release, of.guess, least);
   out.p_on_target = out.shot.p;
   out.p_goal = out.shot.p_goal;
-  if (!(out.shot.p > 0.0)) return out;
+  if (!(out.shot.p > 0.0) || (least > 0.0 && chance(out) <= least)) return out;
   const double passed = passes(out, fire_after_s + robot_.delay_s + of.later_s);
   out.p_on_target *= passed;
   out.p_goal *= passed;
@@ -231,7 +232,8 @@ void LookaheadSearch::look_ahead(Ways& ways) {
     if (survival <= best) return;
     go_on(ways, settings.step_s);
     for (std::size_t i = 0; i < ways.count; ++i) {
-      const PlannedShot shot = planned_shot(ways.bases[i], fire_after_s, false);
+      const double least = ways.candidates[i].value_later / survival;
+      const PlannedShot shot = planned_shot(ways.bases[i], fire_after_s, false, least);
       ways.candidates[i].see_later(value(shot, survival), shot.kind);
       best = std::max(best, ways.candidates[i].value_later);
     }

@@ -64,9 +64,9 @@ class LookaheadSearch {
   CandidateWay best_to(double aim_x_m);
   void go_on(Ways& ways, double time_s) const;
   ShotFeatures features(const DriveMotion& base, const PlannedShot& planned) const;
-  /// The best of the kinds for which the lever stands by then.
-  PlannedShot planned_shot(const DriveMotion& base, double fire_after_s, bool now);
-  PlannedShot shot_of(std::uint8_t kind, const DriveMotion& base, double fire_after_s);
+  /// The best of the kinds for which the lever stands by then. Of chances of `least` or below it may say 0.
+  PlannedShot planned_shot(const DriveMotion& base, double fire_after_s, bool now, double least = 0.0);
+  PlannedShot shot_of(std::uint8_t kind, const DriveMotion& base, double fire_after_s, double least);
   double chance(const PlannedShot& planned) const { return past_keeper_ ? planned.p_goal : planned.p_on_target; }
   double passes(const PlannedShot& planned, double release_after_s) const;
   double worth(const PlannedShot& planned) const;

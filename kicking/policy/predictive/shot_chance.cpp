@@ -51,7 +51,7 @@ void ShotModel::go_over_floor(const ReleaseState& release, const Eigen::Vector2d
   out.out_of_range = !std::isfinite(crossing.t_flight_s);
 }
 
-ShotChance ShotModel::chance(const ReleaseState& release, ShotGuess& guess) const {
+ShotChance ShotModel::chance(const ReleaseState& release, ShotGuess& guess, double least) const {
   ShotChance out;
   const Eigen::Vector2d carried = release.carried_mps(robot_.transfer_exact, robot_.ball_offset_m);
   if (low_) {
@@ -77,11 +77,12 @@ ShotChance ShotModel::chance(const ReleaseState& release, ShotGuess& guess) cons
   if (out.out_of_range) return out;
   const double bounce_ratio = low_ ? config_.predictive.low_bounce_ratio : config_.predictive.bounce_ratio;
   if (keeper_) {
-    const GoalChance chance = goal_chance(out.crossing, bounce_ratio, config_.keeper, *keeper_, goal_, robot_.ball);
+    const GoalChance chance =
+        goal_chance(out.crossing, bounce_ratio, config_.keeper, *keeper_, goal_, robot_.ball, least);
     out.p = chance.p_on_target;
     out.p_goal = chance.p_goal;
   } else {
-    out.p = p_on_target(out.crossing, bounce_ratio, goal_, robot_.ball);
+    out.p = p_on_target(out.crossing, bounce_ratio, goal_, robot_.ball, least);
   }
   return out;
 }

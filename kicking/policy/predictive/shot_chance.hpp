@@ -45,8 +45,8 @@ class ShotModel {
         best_height_(config.predictive.bounce_ratio, goal, robot.ball),
         low_(low_kick(robot, goal)) {}
 
-  /// The guess is improved.
-  ShotChance chance(const ReleaseState& release, ShotGuess& guess) const;
+  /// The guess is improved. Of a chance of `least` or below it may say 0.
+  ShotChance chance(const ReleaseState& release, ShotGuess& guess, double least = 0.0) const;
 
  private:
   bool aim(const ReleaseState& release, const Eigen::Vector2d& carried_mps, ShotGuess& guess, ShotChance& out) const;

@@ -1,0 +1,305 @@
+// How much a robot could win by driving otherwise: a planner with perfect knowledge of the world and all the time that
+// it wants looks for the best way of each opportunity under the robot's limits, then drives it in the same world.
+// Simulated.
+//     build/release/tests/planner_bound --scenario config/scenarios/flat_keeper.toml [--matches 100] [--samples 64]
+// The opportunities are those of `trivela simulate` with the same seed, matches and possessions.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <numbers>
+#include <random>
+
+#include "cli/options/world.hpp"
+#include "config/scenario/scenario_field.hpp"
+#include "config/settings.hpp"
+#include "experiment/play/oracle.hpp"
+#include "experiment/play/play_match.hpp"
+#include "experiment/run/in_threads.hpp"
+#include "kicking/geometry/time.hpp"
+#include "kicking/policy/predictive/drive_plan.hpp"
+#include "kicking/policy/predictive/shot_chance.hpp"
+#include "sim/match.hpp"
+#include "sim/robot_body.hpp"
+
+namespace {
+
+using namespace trivela;
+
+constexpr std::size_t kSegment = 6;  // cycles of one command
+constexpr double kLongest_s = 4.0;   // of a plan
+constexpr std::size_t kElite = 8;    // plans that the next ones are drawn about
+constexpr double kStop_per_min = 60.0;
+
+/// Commands of each cycle, and the best shot on their way.
+struct Plan {
+  std::vector<kicking::Twist> commands;
+  double value = 0.0;  ///< probability that it scores, and that the referee has not stopped the game before
+  double fire_after_s = 0.0;
+  double power = 0.0;
+  std::uint8_t kind = 0;
+};
+
+/// What a plan is worth from one state of the world.
+class Worth {
+ public:
+  Worth(const sim::Scenario& scenario, const kicking::PolicyConfig& config, const kicking::RobotModel& robot,
+        const kicking::Goal& goal, const sim::TrueState& state, double dispute_s)
+      : scenario_(scenario), config_(config), robot_(robot), goal_(goal), state_(state), last_fire_s_(dispute_s) {
+    std::optional<kicking::KeeperPlace> keeper;
+    if (state.keeper_x_m && config.objective == kicking::Objective::kGoal)
+      keeper = kicking::KeeperPlace{*state.keeper_x_m, 0.0};
+    past_keeper_ = keeper.has_value();
+    for (std::size_t i = 0; i < robot.kinds(); ++i) {
+      models_.emplace_back(config, robot.kind(i), goal, kicking::StateSpread{}, keeper);
+      const auto& table = robot.kind(i).table;
+      guesses_.push_back({.exit_angle = kicking::Elevation(
+                              robot.kind(i).exit_angle_at(0.5 * (table.front().power + table.back().power)))});
+    }
+  }
+
+  std::size_t cycles() const {
+    return static_cast<std::size_t>(std::min(last_fire_s_ + 0.1, kLongest_s) / scenario_.cycle_s) + 1;
+  }
+
+  /// Drives the plan and finds its best shot. A ball that leaves the field ends it.
+  void judge(Plan& plan) {
+    plan.value = 0.0;
+    sim::RobotBody body{scenario_.robot};
+    body.place(state_.pose, state_.twist);
+    for (std::size_t i = 0; i < plan.commands.size(); ++i) {
+      body.follow(plan.commands[i]);
+      body.advance(scenario_.cycle_s);
+      const Eigen::Vector3d ball = body.ball_point_m();
+      if (std::abs(ball.x()) > scenario_.field.side_line_x_m || std::abs(ball.y()) > scenario_.field.goal_line_y_m)
+        return;
+      look(body, scenario_.cycle_s * static_cast<double>(i + 1), plan);
+    }
+  }
+
+  const kicking::Goal& goal() const { return goal_; }
+
+ private:
+  void look(const sim::RobotBody& body, double release_s, Plan& plan) {
+    const kicking::Twist twist = body.twist();
+    const Eigen::Vector2d forward{-body.axis().s, body.axis().c}, right{body.axis().c, body.axis().s};
+    const kicking::ReleaseState release{body.ball_point_m().head<2>(), forward,
+                                        twist.vx_mps * right + twist.vy_mps * forward, twist.omega_radps};
+    for (std::size_t kind = 0; kind < models_.size(); ++kind) {
+      const double fire_s = release_s - robot_.kind(kind).delay_s;
+      const double stands_s = state_.lever_kind == kind ? 0.0 : robot_.lever_s + scenario_.cycle_s;
+      if (fire_s < stands_s || fire_s > last_fire_s_) continue;
+      const kicking::ShotChance shot = models_[kind].chance(release, guesses_[kind]);
+      const double p = past_keeper_ ? shot.p_goal : shot.p;
+      const double kept = std::exp(-scenario_.referee.stops_per_min / kStop_per_min * fire_s);
+      if (p * kept <= plan.value) continue;
+      const double value = p * kept * passes(release, shot, kind, release_s);
+      if (value <= plan.value) continue;
+      plan.value = value;
+      plan.fire_after_s = fire_s;
+      plan.power = shot.power;
+      plan.kind = static_cast<std::uint8_t>(kind);
+    }
+  }
+
+  /// Probability that no opponent is in the way: each keeps its bearing from the ball and comes nearer.
+  double passes(const kicking::ReleaseState& release, const kicking::ShotChance& shot, std::size_t kind,
+                double release_s) const {
+    const Eigen::Vector2d held = {state_.pose.x_m - robot_.ball_offset_m * std::sin(state_.pose.heading_rad),
+                                  state_.pose.y_m + robot_.ball_offset_m * std::cos(state_.pose.heading_rad)};
+    const double way_m = std::hypot(shot.crossing.x_m - release.ball_m.x(), goal_.y_m - release.ball_m.y());
+    const kicking::KickPath path{
+        .velocity_mps = shot.exit.v_kick_mps * shot.exit.exit_angle.cosine * release.forward +
+                        release.carried_mps(robot_.kind(kind).transfer_exact, robot_.ball_offset_m),
+        .v_z_mps = shot.exit.v_kick_mps * shot.exit.exit_angle.sine,
+        .sd_rad = shot.crossing.sd_x_m / std::max(0.1, way_m)};
+    const kicking::Body body{scenario_.opponent.body_radius_m, scenario_.opponent.body_height_m};
+    double p = 1.0;
+    for (std::size_t i = 0; i < state_.opponent_count; ++i) {
+      const Eigen::Vector2d apart = state_.opponents[i].position_m - held;
+      const double then_m = std::max(0.05, apart.norm() - state_.opponents[i].closing_mps * release_s);
+      p *= 1.0 - kicking::p_in_the_way(then_m * apart.normalized(), 0.0, path, body, robot_.ball);
+    }
+    return p;
+  }
+
+  const sim::Scenario& scenario_;
+  const kicking::PolicyConfig& config_;
+  const kicking::RobotModel& robot_;
+  const kicking::Goal& goal_;
+  const sim::TrueState& state_;
+  double last_fire_s_;
+  bool past_keeper_ = false;
+  std::vector<kicking::ShotModel> models_;
+  std::vector<kicking::ShotGuess> guesses_;
+};
+
+/// The policy's own ways of driving, to both corners and the middle, at several speeds.
+std::vector<Plan> plans_of_the_policy(const sim::TrueState& state, const kicking::PolicyConfig& config,
+                                      const kicking::Goal& goal, std::size_t cycles) {
+  std::vector<Plan> plans;
+  for (const kicking::DrivePlan plan : kicking::kDrivePlans) {
+    for (const double aim_x_m : {-0.74, -0.4, 0.0, 0.4, 0.74}) {
+      for (const double speed_mps : {0.0, 0.5, 1.0, 1.5, 2.0}) {
+        kicking::DriveMotion base{state.pose, state.twist};
+        Plan& next = plans.emplace_back();
+        for (std::size_t i = 0; i < cycles; ++i) {
+          next.commands.push_back(kicking::command_of(plan, base, config, {aim_x_m, goal.y_m}, speed_mps, 1.0, 8.0));
+          base.step(next.commands.back(), config, config.cycle_s);
+        }
+      }
+    }
+  }
+  return plans;
+}
+
+/// Cross-entropy search: `samples` plans about the best ones, `rounds` times, from the policy's own and from nothing.
+Plan best_plan(Worth& worth, const sim::Scenario& scenario, std::vector<Plan> known, int samples, int rounds,
+               std::mt19937_64& random) {
+  for (Plan& plan : known) worth.judge(plan);
+  const auto better = [](const Plan& a, const Plan& b) { return a.value > b.value; };
+  std::ranges::sort(known, better);
+  const std::size_t cycles = worth.cycles(), segments = cycles / kSegment + 1;
+  Plan best = known.front();
+  const double limits[3] = {scenario.robot.max_speed_mps, scenario.robot.max_speed_mps,
+                            scenario.robot.max_turn_rate_radps};
+  for (int start = 0; start < 4; ++start) {  // from the best known, from two others, from nothing
+    std::vector<std::array<double, 3>> mean(segments, {0.0, 0.0, 0.0}), sd(segments);
+    for (auto& of : sd)
+      for (std::size_t axis = 0; axis < 3; ++axis) of[axis] = (start == 3 ? 0.8 : 0.35) * limits[axis];
+    if (start < 3) {
+      const Plan& from = known[static_cast<std::size_t>(start) * 7];
+      for (std::size_t s = 0; s < segments; ++s) {
+        const kicking::Twist& at = from.commands[std::min(s * kSegment, cycles - 1)];
+        mean[s] = {at.vx_mps, at.vy_mps, at.omega_radps};
+      }
+    }
+    for (int round = 0; round < rounds; ++round) {
+      std::vector<std::pair<Plan, std::vector<std::array<double, 3>>>> drawn(static_cast<std::size_t>(samples));
+      for (auto& [plan, values] : drawn) {
+        values = mean;
+        for (std::size_t s = 0; s < segments; ++s)
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            values[s][axis] =
+                std::clamp(std::normal_distribution{mean[s][axis], sd[s][axis]}(random), -limits[axis], limits[axis]);
+        for (std::size_t i = 0; i < cycles; ++i) {
+          const auto& at = values[i / kSegment];
+          plan.commands.push_back({at[0], at[1], at[2]});
+        }
+        worth.judge(plan);
+      }
+      std::ranges::sort(drawn, better, [](const auto& one) -> const Plan& { return one.first; });
+      if (drawn.front().first.value > best.value) best = drawn.front().first;
+      for (std::size_t s = 0; s < segments; ++s) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          double sum = 0.0, squares = 0.0;
+          for (std::size_t e = 0; e < kElite; ++e) sum += drawn[e].second[s][axis];
+          for (std::size_t e = 0; e < kElite; ++e) squares += std::pow(drawn[e].second[s][axis] - sum / kElite, 2);
+          mean[s][axis] = sum / kElite;
+          sd[s][axis] = std::sqrt(squares / kElite) + 0.02 * limits[axis];
+        }
+      }
+    }
+  }
+  return best;
+}
+
+struct Tally {
+  int opportunities = 0, kicks = 0, on_target = 0, goals = 0, blocked = 0, disputed = 0, hopeless = 0;
+  double promised = 0.0, known = 0.0;  ///< sums of the plans' values, and of the best of the policy's own ways
+};
+
+struct Flags {
+  cli::World world;
+  std::uint64_t seed = 1;
+  std::uint32_t matches = 100, possessions = 10;
+  int samples = 64, rounds = 25;
+  bool on_target = false;
+};
+
+/// Plays one match: plans when a possession begins, and drives the plan.
+Tally play(const sim::Scenario& scenario, const Flags& flags, std::uint32_t match_id) {
+  Tally tally;
+  const std::uint64_t seed = experiment::match_seed(flags.seed, match_id);
+  std::mt19937_64 random{seed};
+  config::Settings settings = config::on_field_of(scenario, config::Settings{});
+  settings.policy.objective = flags.on_target ? kicking::Objective::kOnTarget : kicking::Objective::kGoal;
+  const kicking::PolicyConfig config = experiment::oracle_config(settings.policy, scenario);
+  sim::Match match{scenario, seed, 1, 1e6, flags.possessions};
+  std::optional<Plan> plan;
+  std::int64_t from_ns = 0, kick_id = 0;
+  while (!match.done()) {
+    const sim::Sensors sensors = match.sense();
+    const sim::TrueState state = match.true_state();
+    sim::Commands commands;
+    const bool plays = sensors.referee.playing && state.ball_held;
+    if (!plays) plan.reset();
+    if (plays && !plan) {
+      const kicking::RobotModel robot =
+          experiment::oracle_robot(scenario, match.true_kicker(sensors.carrier), scenario.kicker.flat.enabled ? 2 : 1);
+      const double dispute_s = kicking::seconds(state.dispute_t_ns - sensors.t_ns);
+      Worth worth{scenario, config, robot, settings.goal, state, std::min(dispute_s, kLongest_s)};
+      auto known = plans_of_the_policy(state, config, settings.goal, worth.cycles());
+      plan = best_plan(worth, scenario, known, flags.samples, flags.rounds, random);
+      for (Plan& one : known) worth.judge(one);
+      tally.known += std::ranges::max_element(known, {}, &Plan::value)->value;
+      tally.promised += plan->value;
+      tally.hopeless += plan->value < 0.02 ? 1 : 0;
+      from_ns = sensors.t_ns;
+    }
+    if (plan) {
+      const std::int64_t now_ns = sensors.t_ns - from_ns;
+      const auto cycle = static_cast<std::size_t>(std::llround(kicking::seconds(now_ns) / scenario.cycle_s));
+      if (cycle < plan->commands.size()) commands.drive = plan->commands[cycle];
+      commands.lever_kind = plan->kind;
+      const std::int64_t fire_ns = kicking::nanoseconds(plan->fire_after_s);
+      if (plan->value > 0.0 && fire_ns >= now_ns && fire_ns < now_ns + kicking::nanoseconds(scenario.cycle_s))
+        commands.fire = sim::Fire{from_ns + fire_ns, ++kick_id, plan->power};
+    }
+    const sim::StepEvents events = match.step(commands);
+    for (const sim::KickTruth& kick : events.kicks) {
+      ++tally.kicks;
+      tally.on_target += kick.outcome == kicking::Outcome::kOnTarget ? 1 : 0;
+      tally.goals += kick.outcome == kicking::Outcome::kOnTarget && !kick.saved ? 1 : 0;
+      tally.blocked += kick.outcome == kicking::Outcome::kBlocked ? 1 : 0;
+    }
+    for (const sim::PossessionTruth& possession : events.possessions) {
+      ++tally.opportunities;
+      tally.disputed += possession.ending == sim::PossessionEnd::kDisputed ? 1 : 0;
+    }
+  }
+  return tally;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Flags flags;
+  CLI::App app{"What a planner with perfect knowledge and all the time that it wants wins of the same opportunities"};
+  cli::add_world_options(app, flags.world);
+  app.add_option("--seed", flags.seed, "of all matches, as in trivela simulate")->capture_default_str();
+  app.add_option("--matches", flags.matches, "Matches")->check(CLI::Range(1, 100000))->capture_default_str();
+  app.add_option("--possessions", flags.possessions, "Opportunities of each")->capture_default_str();
+  app.add_option("--samples", flags.samples, "Plans of a round")->check(CLI::Range(8, 100000))->capture_default_str();
+  app.add_option("--rounds", flags.rounds, "Rounds from each of four starts")->capture_default_str();
+  app.add_flag("--on-target", flags.on_target, "Plans for balls on target, as if no keeper stood there");
+  CLI11_PARSE(app, argc, argv);
+  const sim::Scenario scenario = flags.world.load();
+  Tally all;
+  std::vector<Tally> tallies(flags.matches);
+  experiment::in_threads(flags.matches, 2,
+                         [&](std::size_t i) { tallies[i] = play(scenario, flags, static_cast<std::uint32_t>(i)); });
+  for (const Tally& one : tallies) {
+    all.opportunities += one.opportunities, all.kicks += one.kicks, all.on_target += one.on_target;
+    all.goals += one.goals, all.blocked += one.blocked, all.disputed += one.disputed, all.hopeless += one.hopeless;
+    all.promised += one.promised, all.known += one.known;
+  }
+  const double n = all.opportunities;
+  fmt::print("SIMULATED: a planner that knows the world, of {} opportunities, seed {}\n", all.opportunities,
+             flags.seed);
+  fmt::print("of 100 opportunities: goals {:.1f}, on target {:.1f}, kicks {:.1f}, blocked {:.1f}, disputed {:.1f}\n",
+             100.0 * all.goals / n, 100.0 * all.on_target / n, 100.0 * all.kicks / n, 100.0 * all.blocked / n,
+             100.0 * all.disputed / n);
+  fmt::print("its plans promise {:.1f}, the best of the policy's own ways {:.1f}; hopeless (below 2 %) {:.1f}\n",
+             100.0 * all.promised / n, 100.0 * all.known / n, 100.0 * all.hopeless / n);
+  return 0;
+}
