@@ -22,6 +22,18 @@ Ending past_keeper(const Opportunity& o) {
   return !o.saved ? Ending::kUnknown : *o.saved ? Ending::kOutside : Ending::kInside;
 }
 
+void count(GroupResult& result, const Opportunity& o) {
+  result.inside += o.ending == Ending::kInside ? 1 : 0;
+  result.outside += o.ending == Ending::kOutside ? 1 : 0;
+  result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
+  result.blocked += o.ending == Ending::kBlocked ? 1 : 0;
+  result.goals += past_keeper(o) == Ending::kInside ? 1 : 0;
+  result.doubt += {o.ending == Ending::kInside ? o.doubt : 0.0, o.ending == Ending::kOutside ? o.doubt : 0.0};
+  if (o.ending != Ending::kInside) return;
+  result.inside_kicks.bounced.add(o.bounced, o.truth_bounced);
+  result.inside_kicks.saved.add(o.observed_saved, o.truth_saved);
+}
+
 GroupResult group_result(const KickDataset& dataset, std::uint32_t group) {
   GroupResult result;
   result.name = dataset.groups[group];
@@ -29,16 +41,7 @@ GroupResult group_result(const KickDataset& dataset, std::uint32_t group) {
   for (const Opportunity& o : dataset.opportunities) {
     if (o.group != group) continue;
     result.opportunities += dataset.has_opportunities ? 1 : 0;
-    result.inside += o.ending == Ending::kInside ? 1 : 0;
-    result.outside += o.ending == Ending::kOutside ? 1 : 0;
-    result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
-    result.blocked += o.ending == Ending::kBlocked ? 1 : 0;
-    result.goals += past_keeper(o) == Ending::kInside ? 1 : 0;
-    if (o.ending == Ending::kInside) {
-      result.inside_kicks.bounced.add(o.bounced, o.truth_bounced);
-      result.inside_kicks.saved.add(o.observed_saved, o.truth_saved);
-    }
-    result.doubt += {o.ending == Ending::kInside ? o.doubt : 0.0, o.ending == Ending::kOutside ? o.doubt : 0.0};
+    count(result, o);
     if (!dataset.has_matches) continue;
     const stats::ClusterCounts empty{o.match, o.calibration, {}};
     auto& [all, known, past] =

@@ -88,6 +88,8 @@ Json json_of(const KickTimeline& story) {
   put_places(json, "ball", story.ball, false);
   put_places(json, "flight", story.flight, true);
   put_places(json, "opponent", story.opponent, false);
+  for (const Eigen::Vector2d& at : story.others) json["others_cm"].push_back({cm(at.x()), cm(at.y())});
+  put(json, "keeper_x_cm", story.keeper_x_m, 100.0);
   return json;
 }
 

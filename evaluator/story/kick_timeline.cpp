@@ -1,5 +1,7 @@
 #include "evaluator/story/kick_timeline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +11,7 @@
 #include "evaluator/metrics/listed_kicks.sql.hpp"
 #include "evaluator/sessions/session_setup.hpp"
 #include "kicking/geometry/time.hpp"
+#include "kicking/outcome/blocking.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -87,6 +90,7 @@ class KickStreams {
     read_world(timeline);
     read_flight(timeline);
     read_opponent(timeline);
+    read_others(timeline);
     add_half_time(reader_, timeline);
   }
 
@@ -157,6 +161,26 @@ class KickStreams {
            if (log::cell_as<bool>(cells[1], 1) && x_m && y_m && z_m && t_ns >= timeline.t_ns && begins_step(t_ns, step))
              timeline.flight.push_back({t_ns - timeline.t_ns, {*x_m, *y_m, *z_m}});
          });
+  }
+
+  /// As known at the decision.
+  void read_others(KickTimeline& timeline) const {
+    std::vector<std::string> columns{"keeper_x_m", "opponent_count"};
+    for (std::size_t i = 0; i < kicking::kMostBodies; ++i) {
+      columns.push_back(fmt::format("opponent_x_{}_m", i));
+      columns.push_back(fmt::format("opponent_y_{}_m", i));
+    }
+    bool first = true;
+    rows(timeline, "world_states", columns, timeline.t_ns, [&](Values cells) {
+      if (!std::exchange(first, false)) return;
+      timeline.keeper_x_m = log::cell_as<std::optional<double>>(cells[0], 0);
+      const auto count = static_cast<std::size_t>(log::cell_as<std::int64_t>(cells[1], 1));
+      for (std::size_t i = 0; i < std::min(count, kicking::kMostBodies); ++i) {
+        const auto x_m = log::cell_as<std::optional<double>>(cells[2 + 2 * i], 2 + 2 * i);
+        const auto y_m = log::cell_as<std::optional<double>>(cells[3 + 2 * i], 3 + 2 * i);
+        if (x_m && y_m) timeline.others.emplace_back(*x_m, *y_m);
+      }
+    });
   }
 
   /// In R of the pose at the exposure's instant.

@@ -56,6 +56,8 @@ struct KickTimeline {
   std::vector<TimelinePlace> ball;      ///< as the robot believed
   std::vector<TimelinePlace> flight;    ///< as its flight camera saw the ball
   std::vector<TimelinePlace> opponent;  ///< the nearest one that it saw
+  std::vector<Eigen::Vector2d> others;  ///< opponents that it tracked at the decision, in F
+  std::optional<double> keeper_x_m;     ///< the keeper along its goal line, at the decision
   DecidedSegments segments;
   std::optional<double> fired_after_s;     ///< the coil was energised, after the decision
   std::optional<double> released_after_s;  ///< the ball was expected to leave

@@ -128,6 +128,9 @@ const replay = (() => {
         mark('line', {class: 's1', x1: s1x, y1: -s1y, x2: s1u, y2: -s1v}),
         mark('line', {class: 's2', x1: s2x, y1: -s2y, x2: s2u, y2: -s2v})),
       robot: mark('g', {class: 'robot'}, mark('circle', {r: kRobot_cm}), mark('path', {d: `M0 0V${-kRobot_cm}`})),
+      others: mark('g', {class: 'other'}, ...(story.others_cm ?? []).map(([x, y]) => mark('circle', {cx: x, cy: -y, r: kRobot_cm}))),
+      keeper: story.keeper_x_cm === undefined ? null : mark('rect', {class: 'other', x: story.keeper_x_cm - kRobot_cm,
+        y: -goal - kRobot_cm, width: 2 * kRobot_cm, height: 2 * kRobot_cm}),
       opponent: mark('g', {class: 'opponent'}, mark('circle', {r: kRobot_cm})),
       ball: mark('g', {class: 'ball'}, mark('circle', {r: kBall_cm})),
       predicted: story.predicted && story.predicted.x_cm !== undefined ? cross(story.predicted.x_cm, -goal, 14) : null,
@@ -204,7 +207,8 @@ const replay = (() => {
 
   function legend(story) {
     const entries = [['robot', 'robot', story.path], ['ball', 'ball', story.ball || story.flight],
-      ['opponent', 'nearest opponent', story.opponent], ['s1', 'segment 1: along the kick', true],
+      ['opponent', 'nearest opponent', story.opponent], ['other', 'opponents at the decision (the keeper square)', story.others_cm || story.keeper_x_cm !== undefined],
+      ['s1', 'segment 1: along the kick', true],
       ['s2', 'segment 2: the target', true], ['predicted', 'predicted crossing', story.predicted],
       ['observed', 'observed crossing', story.observed && story.observed.x_cm !== undefined]];
     const list = part('ul', '', {class: 'replay-legend'});

@@ -48,10 +48,12 @@ export class Pitch {
     const top = -y - kMargin_m - kGoalDepth_m;
     this.svg.setAttribute('viewBox', [-side - kMargin_m, top, 2 * (side + kMargin_m), -2 * top].join(' '));
     this.layers = mark('g', {});
+    this.others = mark('g', {});
+    this.keeperY = y;
     this.flight = mark('circle', {class: 'flight', r: kBall_m, visibility: 'hidden'});
     this.robots.clear();
     const stamp = mark('text', {class: 'stamp', x: -side, y: y + 0.75}, 'SIMULATED');
-    this.svg.replaceChildren(...lines(field), ...(simulated ? [stamp] : []), this.layers, this.flight);
+    this.svg.replaceChildren(...lines(field), ...(simulated ? [stamp] : []), this.others, this.layers, this.flight);
   }
 
   partsOf(id) {
@@ -84,6 +86,10 @@ export class Pitch {
       }
       show(parts.ball, known(robot.ball), known(robot.ball) && {transform: place(robot.ball[0], robot.ball[1])});
     }
+    this.others.replaceChildren(...pitch.robots.flatMap(({opponents = [], keeper = null}) => [
+      ...opponents.filter(known).map(([x, y]) => mark('circle', {class: 'other', cx: x, cy: -y, r: kRobot_m})),
+      ...(keeper === null ? [] : [mark('rect', {class: 'other keeper', x: keeper - kRobot_m, y: -this.keeperY - kRobot_m,
+        width: 2 * kRobot_m, height: 2 * kRobot_m})])]));
     const flying = known(pitch.flight);
     show(this.flight, flying, flying && {transform: place(pitch.flight[0], pitch.flight[1]),
       r: (kBall_m * (1 + 0.6 * Math.max(0, Math.min(pitch.flight[2], 3)))).toFixed(3)});

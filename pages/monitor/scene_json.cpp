@@ -1,6 +1,8 @@
 #include "pages/monitor/match_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "evaluator/story/decided_segments.hpp"
@@ -73,6 +75,13 @@ Json robot_json(std::uint8_t id, const RobotView& robot, std::int64_t now_ns) {
     shown["y"] = number(last->y_m);
     shown["heading"] = number(last->heading_rad);
     shown["has_ball"] = world != nullptr && last->possession;
+    if (world != nullptr) {
+      Json others = Json::array();
+      for (std::size_t i = 0; i < std::min<std::size_t>(last->opponent_count, std::size(last->opponent_x_m)); ++i)
+        others.push_back({number(last->opponent_x_m[i]), number(last->opponent_y_m[i])});
+      shown["opponents"] = others;
+      shown["keeper"] = number(last->keeper_x_m);
+    }
     if (world != nullptr && last->ball_known) shown["ball"] = {number(last->ball_x_m), number(last->ball_y_m)};
   }
   shown["kicker"] = kicker_json(robot.kicker.within(kFresh_ns, now_ns));

@@ -152,56 +152,91 @@ std::vector<Plan> plans_of_the_policy(const sim::TrueState& state, const kicking
   return plans;
 }
 
-/// Cross-entropy search: `samples` plans about the best ones, `rounds` times, from the policy's own and from nothing.
-Plan best_plan(Worth& worth, const sim::Scenario& scenario, std::vector<Plan> known, int samples, int rounds,
-               std::mt19937_64& random) {
-  for (Plan& plan : known) worth.judge(plan);
-  const auto better = [](const Plan& a, const Plan& b) { return a.value > b.value; };
-  std::ranges::sort(known, better);
-  const std::size_t cycles = worth.cycles(), segments = cycles / kSegment + 1;
-  Plan best = known.front();
-  const double limits[3] = {scenario.robot.max_speed_mps, scenario.robot.max_speed_mps,
-                            scenario.robot.max_turn_rate_radps};
-  for (int start = 0; start < 4; ++start) {  // from the best known, from two others, from nothing
-    std::vector<std::array<double, 3>> mean(segments, {0.0, 0.0, 0.0}), sd(segments);
-    for (auto& of : sd)
-      for (std::size_t axis = 0; axis < 3; ++axis) of[axis] = (start == 3 ? 0.8 : 0.35) * limits[axis];
-    if (start < 3) {
-      const Plan& from = known[static_cast<std::size_t>(start) * 7];
-      for (std::size_t s = 0; s < segments; ++s) {
-        const kicking::Twist& at = from.commands[std::min(s * kSegment, cycles - 1)];
-        mean[s] = {at.vx_mps, at.vy_mps, at.omega_radps};
+using Axes = std::array<double, 3>;  // forward, sideways, turning
+
+bool is_better(const Plan& a, const Plan& b) { return a.value > b.value; }
+
+/// Cross-entropy search: `samples` plans about the best ones, `rounds` times, from the best of the policy's own, from
+/// two others of them and from nothing.
+class Search {
+ public:
+  Search(Worth& worth, const sim::Scenario& scenario, int samples, int rounds, std::mt19937_64& random)
+      : worth_(worth),
+        limits_{scenario.robot.max_speed_mps, scenario.robot.max_speed_mps, scenario.robot.max_turn_rate_radps},
+        samples_(static_cast<std::size_t>(samples)),
+        rounds_(rounds),
+        random_(random),
+        cycles_(worth.cycles()),
+        mean_(cycles_ / kSegment + 1),
+        sd_(mean_.size()) {}
+
+  /// `known`: judged, the best first.
+  Plan best(const std::vector<Plan>& known) {
+    Plan best = known.front();
+    for (std::size_t start = 0; start < 4; ++start) {
+      begin(start < 3 ? &known[7 * start] : nullptr);
+      for (int round = 0; round < rounds_; ++round) {
+        Plan found = draw_and_learn();
+        if (found.value > best.value) best = std::move(found);
       }
     }
-    for (int round = 0; round < rounds; ++round) {
-      std::vector<std::pair<Plan, std::vector<std::array<double, 3>>>> drawn(static_cast<std::size_t>(samples));
-      for (auto& [plan, values] : drawn) {
-        values = mean;
-        for (std::size_t s = 0; s < segments; ++s)
-          for (std::size_t axis = 0; axis < 3; ++axis)
-            values[s][axis] =
-                std::clamp(std::normal_distribution{mean[s][axis], sd[s][axis]}(random), -limits[axis], limits[axis]);
-        for (std::size_t i = 0; i < cycles; ++i) {
-          const auto& at = values[i / kSegment];
-          plan.commands.push_back({at[0], at[1], at[2]});
-        }
-        worth.judge(plan);
-      }
-      std::ranges::sort(drawn, better, [](const auto& one) -> const Plan& { return one.first; });
-      if (drawn.front().first.value > best.value) best = drawn.front().first;
-      for (std::size_t s = 0; s < segments; ++s) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          double sum = 0.0, squares = 0.0;
-          for (std::size_t e = 0; e < kElite; ++e) sum += drawn[e].second[s][axis];
-          for (std::size_t e = 0; e < kElite; ++e) squares += std::pow(drawn[e].second[s][axis] - sum / kElite, 2);
-          mean[s][axis] = sum / kElite;
-          sd[s][axis] = std::sqrt(squares / kElite) + 0.02 * limits[axis];
-        }
-      }
+    return best;
+  }
+
+ private:
+  struct Drawn {
+    Plan plan;
+    std::vector<Axes> values;
+  };
+
+  void begin(const Plan* from) {
+    for (std::size_t s = 0; s < mean_.size(); ++s) {
+      for (std::size_t axis = 0; axis < 3; ++axis) sd_[s][axis] = (from == nullptr ? 0.8 : 0.35) * limits_[axis];
+      const kicking::Twist at =
+          from == nullptr ? kicking::Twist{} : from->commands[std::min(s * kSegment, cycles_ - 1)];
+      mean_[s] = {at.vx_mps, at.vy_mps, at.omega_radps};
     }
   }
-  return best;
-}
+
+  Drawn draw() {
+    Drawn drawn{.plan = {}, .values = mean_};
+    for (std::size_t s = 0; s < mean_.size(); ++s)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        drawn.values[s][axis] =
+            std::clamp(std::normal_distribution{mean_[s][axis], sd_[s][axis]}(random_), -limits_[axis], limits_[axis]);
+    for (std::size_t i = 0; i < cycles_; ++i) {
+      const Axes& at = drawn.values[i / kSegment];
+      drawn.plan.commands.push_back({at[0], at[1], at[2]});
+    }
+    worth_.judge(drawn.plan);
+    return drawn;
+  }
+
+  Plan draw_and_learn() {
+    std::vector<Drawn> all;
+    all.reserve(samples_);
+    for (std::size_t i = 0; i < samples_; ++i) all.push_back(draw());
+    std::ranges::sort(all, is_better, &Drawn::plan);
+    for (std::size_t s = 0; s < mean_.size(); ++s) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        double sum = 0.0, squares = 0.0;
+        for (std::size_t e = 0; e < kElite; ++e) sum += all[e].values[s][axis];
+        mean_[s][axis] = sum / kElite;
+        for (std::size_t e = 0; e < kElite; ++e) squares += std::pow(all[e].values[s][axis] - mean_[s][axis], 2);
+        sd_[s][axis] = std::sqrt(squares / kElite) + 0.02 * limits_[axis];
+      }
+    }
+    return std::move(all.front().plan);
+  }
+
+  Worth& worth_;
+  Axes limits_;
+  std::size_t samples_;
+  int rounds_;
+  std::mt19937_64& random_;
+  std::size_t cycles_;
+  std::vector<Axes> mean_, sd_;
+};
 
 struct Tally {
   int opportunities = 0, kicks = 0, on_target = 0, goals = 0, blocked = 0, disputed = 0, hopeless = 0;
@@ -216,63 +251,107 @@ struct Flags {
   bool on_target = false;
 };
 
-/// Plays one match: plans when a possession begins, and drives the plan.
-Tally play(const sim::Scenario& scenario, const Flags& flags, std::uint32_t match_id) {
-  Tally tally;
-  const std::uint64_t seed = experiment::match_seed(flags.seed, match_id);
-  std::mt19937_64 random{seed};
-  config::Settings settings = config::on_field_of(scenario, config::Settings{});
-  settings.policy.objective = flags.on_target ? kicking::Objective::kOnTarget : kicking::Objective::kGoal;
-  const kicking::PolicyConfig config = experiment::oracle_config(settings.policy, scenario);
-  sim::Match match{scenario, seed, 1, 1e6, flags.possessions};
-  std::optional<Plan> plan;
-  std::int64_t from_ns = 0, kick_id = 0;
-  while (!match.done()) {
-    const sim::Sensors sensors = match.sense();
-    const sim::TrueState state = match.true_state();
+/// A match in which each possession is planned when it begins, and then driven.
+class PlannedMatch {
+ public:
+  PlannedMatch(const sim::Scenario& scenario, const Flags& flags, std::uint32_t match_id)
+      : scenario_(scenario),
+        flags_(flags),
+        random_{experiment::match_seed(flags.seed, match_id)},
+        settings_(config::on_field_of(scenario, config::Settings{})),
+        match_{scenario, experiment::match_seed(flags.seed, match_id), 1, 1e6, flags.possessions} {
+    settings_.policy.objective = flags.on_target ? kicking::Objective::kOnTarget : kicking::Objective::kGoal;
+    config_ = experiment::oracle_config(settings_.policy, scenario);
+  }
+
+  Tally play() {
+    while (!match_.done()) {
+      const sim::Sensors sensors = match_.sense();
+      const sim::TrueState state = match_.true_state();
+      const bool plays = sensors.referee.playing && state.ball_held;
+      if (!plays) plan_.reset();
+      if (plays && !plan_) plan(sensors, state);
+      count(match_.step(plan_ ? commands(sensors.t_ns - from_ns_) : sim::Commands{}));
+    }
+    return tally_;
+  }
+
+ private:
+  void plan(const sim::Sensors& sensors, const sim::TrueState& state) {
+    const kicking::RobotModel robot =
+        experiment::oracle_robot(scenario_, match_.true_kicker(sensors.carrier), scenario_.kicker.flat.enabled ? 2 : 1);
+    const double dispute_s = kicking::seconds(state.dispute_t_ns - sensors.t_ns);
+    Worth worth{scenario_, config_, robot, settings_.goal, state, std::min(dispute_s, kLongest_s)};
+    auto known = plans_of_the_policy(state, config_, settings_.goal, worth.cycles());
+    for (Plan& one : known) worth.judge(one);
+    std::ranges::sort(known, is_better);
+    plan_ = Search{worth, scenario_, flags_.samples, flags_.rounds, random_}.best(known);
+    tally_.known += known.front().value;
+    tally_.promised += plan_->value;
+    tally_.hopeless += plan_->value < 0.02 ? 1 : 0;
+    from_ns_ = sensors.t_ns;
+  }
+
+  sim::Commands commands(std::int64_t now_ns) {
     sim::Commands commands;
-    const bool plays = sensors.referee.playing && state.ball_held;
-    if (!plays) plan.reset();
-    if (plays && !plan) {
-      const kicking::RobotModel robot =
-          experiment::oracle_robot(scenario, match.true_kicker(sensors.carrier), scenario.kicker.flat.enabled ? 2 : 1);
-      const double dispute_s = kicking::seconds(state.dispute_t_ns - sensors.t_ns);
-      Worth worth{scenario, config, robot, settings.goal, state, std::min(dispute_s, kLongest_s)};
-      auto known = plans_of_the_policy(state, config, settings.goal, worth.cycles());
-      plan = best_plan(worth, scenario, known, flags.samples, flags.rounds, random);
-      for (Plan& one : known) worth.judge(one);
-      tally.known += std::ranges::max_element(known, {}, &Plan::value)->value;
-      tally.promised += plan->value;
-      tally.hopeless += plan->value < 0.02 ? 1 : 0;
-      from_ns = sensors.t_ns;
-    }
-    if (plan) {
-      const std::int64_t now_ns = sensors.t_ns - from_ns;
-      const auto cycle = static_cast<std::size_t>(std::llround(kicking::seconds(now_ns) / scenario.cycle_s));
-      if (cycle < plan->commands.size()) commands.drive = plan->commands[cycle];
-      commands.lever_kind = plan->kind;
-      const std::int64_t fire_ns = kicking::nanoseconds(plan->fire_after_s);
-      if (plan->value > 0.0 && fire_ns >= now_ns && fire_ns < now_ns + kicking::nanoseconds(scenario.cycle_s))
-        commands.fire = sim::Fire{from_ns + fire_ns, ++kick_id, plan->power};
-    }
-    const sim::StepEvents events = match.step(commands);
+    const auto cycle = static_cast<std::size_t>(std::llround(kicking::seconds(now_ns) / scenario_.cycle_s));
+    if (cycle < plan_->commands.size()) commands.drive = plan_->commands[cycle];
+    commands.lever_kind = plan_->kind;
+    const std::int64_t fire_ns = kicking::nanoseconds(plan_->fire_after_s);
+    if (plan_->value > 0.0 && fire_ns >= now_ns && fire_ns < now_ns + kicking::nanoseconds(scenario_.cycle_s))
+      commands.fire = sim::Fire{from_ns_ + fire_ns, ++kick_id_, plan_->power};
+    return commands;
+  }
+
+  void count(const sim::StepEvents& events) {
     for (const sim::KickTruth& kick : events.kicks) {
-      ++tally.kicks;
-      tally.on_target += kick.outcome == kicking::Outcome::kOnTarget ? 1 : 0;
-      tally.goals += kick.outcome == kicking::Outcome::kOnTarget && !kick.saved ? 1 : 0;
-      tally.blocked += kick.outcome == kicking::Outcome::kBlocked ? 1 : 0;
+      ++tally_.kicks;
+      tally_.on_target += kick.outcome == kicking::Outcome::kOnTarget ? 1 : 0;
+      tally_.goals += kick.outcome == kicking::Outcome::kOnTarget && !kick.saved ? 1 : 0;
+      tally_.blocked += kick.outcome == kicking::Outcome::kBlocked ? 1 : 0;
     }
     for (const sim::PossessionTruth& possession : events.possessions) {
-      ++tally.opportunities;
-      tally.disputed += possession.ending == sim::PossessionEnd::kDisputed ? 1 : 0;
+      ++tally_.opportunities;
+      tally_.disputed += possession.ending == sim::PossessionEnd::kDisputed ? 1 : 0;
     }
   }
-  return tally;
+
+  const sim::Scenario& scenario_;
+  const Flags& flags_;
+  std::mt19937_64 random_;
+  config::Settings settings_;
+  kicking::PolicyConfig config_;
+  sim::Match match_;
+  std::optional<Plan> plan_;
+  std::int64_t from_ns_ = 0, kick_id_ = 0;
+  Tally tally_;
+};
+
+void say(const Tally& all, std::uint64_t seed) {
+  const auto share = [&](double n) { return 100.0 * n / all.opportunities; };
+  fmt::print("SIMULATED: a planner that knows the world, of {} opportunities, seed {}\n", all.opportunities, seed);
+  fmt::print("of 100 opportunities: goals {:.1f}, on target {:.1f}, kicks {:.1f}, blocked {:.1f}, disputed {:.1f}\n",
+             share(all.goals), share(all.on_target), share(all.kicks), share(all.blocked), share(all.disputed));
+  fmt::print("its plans promise {:.1f}, the best of the policy's own ways {:.1f}; hopeless (below 2 %) {:.1f}\n",
+             share(all.promised), share(all.known), share(all.hopeless));
 }
 
-}  // namespace
+void play_all(const Flags& flags) {
+  const sim::Scenario scenario = flags.world.load();
+  std::vector<Tally> tallies(flags.matches);
+  experiment::in_threads(flags.matches, 2, [&](std::size_t i) {
+    tallies[i] = PlannedMatch{scenario, flags, static_cast<std::uint32_t>(i)}.play();
+  });
+  Tally all;
+  for (const Tally& one : tallies) {
+    all.opportunities += one.opportunities, all.kicks += one.kicks, all.on_target += one.on_target;
+    all.goals += one.goals, all.blocked += one.blocked, all.disputed += one.disputed, all.hopeless += one.hopeless;
+    all.promised += one.promised, all.known += one.known;
+  }
+  say(all, flags.seed);
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   Flags flags;
   CLI::App app{"What a planner with perfect knowledge and all the time that it wants wins of the same opportunities"};
   cli::add_world_options(app, flags.world);
@@ -283,23 +362,17 @@ int main(int argc, char** argv) {
   app.add_option("--rounds", flags.rounds, "Rounds from each of four starts")->capture_default_str();
   app.add_flag("--on-target", flags.on_target, "Plans for balls on target, as if no keeper stood there");
   CLI11_PARSE(app, argc, argv);
-  const sim::Scenario scenario = flags.world.load();
-  Tally all;
-  std::vector<Tally> tallies(flags.matches);
-  experiment::in_threads(flags.matches, 2,
-                         [&](std::size_t i) { tallies[i] = play(scenario, flags, static_cast<std::uint32_t>(i)); });
-  for (const Tally& one : tallies) {
-    all.opportunities += one.opportunities, all.kicks += one.kicks, all.on_target += one.on_target;
-    all.goals += one.goals, all.blocked += one.blocked, all.disputed += one.disputed, all.hopeless += one.hopeless;
-    all.promised += one.promised, all.known += one.known;
-  }
-  const double n = all.opportunities;
-  fmt::print("SIMULATED: a planner that knows the world, of {} opportunities, seed {}\n", all.opportunities,
-             flags.seed);
-  fmt::print("of 100 opportunities: goals {:.1f}, on target {:.1f}, kicks {:.1f}, blocked {:.1f}, disputed {:.1f}\n",
-             100.0 * all.goals / n, 100.0 * all.on_target / n, 100.0 * all.kicks / n, 100.0 * all.blocked / n,
-             100.0 * all.disputed / n);
-  fmt::print("its plans promise {:.1f}, the best of the policy's own ways {:.1f}; hopeless (below 2 %) {:.1f}\n",
-             100.0 * all.promised / n, 100.0 * all.known / n, 100.0 * all.hopeless / n);
+  play_all(flags);
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fputs(error.what(), stderr);
+    return 1;
+  }
 }

@@ -126,14 +126,16 @@ test('a match is watched from the first kick to after its end', async () => {
 
   await page.waitForFunction(() => /the match is over/.test(document.querySelector('#game').textContent), null, patience);
   await page.waitForFunction(() => document.querySelector('#alarm-list').children.length === 0, null, patience);
-  const table = await page.$$eval('#table tbody tr', (rows) => rows.map((row) => [...row.cells].slice(0, 4).map((cell) => cell.textContent)));
+  const table = await page.$$eval('#table tbody tr', (rows) => rows.map((row) => [...row.cells].slice(0, 5).map((cell) => cell.textContent)));
   const counted = Object.fromEntries(table.map(([policy, ...counts]) => [policy, counts.map(Number)]));
   const report = trivela('report', 'watched.db', '--json');
   const lines = [];
   report.lines.on('line', (line) => lines.push(line));
   assert.equal(await report.end(), 0, report.errors);
   for (const row of JSON.parse(lines.join('\n')).policies)
-    assert.deepEqual(counted[row.policy], [row.inside, row.outside, row.unknown], `${row.policy}: page and report`);
+    assert.deepEqual(counted[row.policy],
+      [row.inside, row.saved.observed ? row.saved.observed.of - row.saved.observed.saved : 0, row.outside, row.unknown],
+      `${row.policy}: page and report`);
   assert.deepEqual(page.complaints, []);
   match.kill('SIGINT');
   assert.equal(await match.end(), 0, match.errors);

@@ -23,8 +23,7 @@ std::string outcome_mark(OutcomeKind kind, const ChartPoint& at, double size) {
     case OutcomeKind::kUnknown:
       return svg_circle("mark " + name, at, size);
     case OutcomeKind::kSaved:
-      return fmt::format("<path class=\"mark {}\" d=\"M{:.1f} {:.1f}l{:.1f} {:.1f}h-{:.1f}z\"/>\n", name, at.x,
-                         at.y - 1.1 * size, 1.1 * size, 2.0 * size, 2.2 * size);
+      return svg_rect("mark " + name, {at.x - 1.3 * size, at.y - 0.4 * size}, 2.6 * size, 0.8 * size);
     case OutcomeKind::kFrame:
       return svg_rect("mark " + name, {at.x - 0.9 * size, at.y - 0.9 * size}, 1.8 * size, 1.8 * size);
     case OutcomeKind::kBeside:

@@ -26,7 +26,7 @@ inline constexpr std::array<OutcomeName, 6> kOutcomeNames{{{"inside", "on target
 /// Of a kick's label; without one it is not known. "outside" and what is no goal by the rules are beside.
 OutcomeKind kind_of(const KickTimeline& story);
 
-/// Its mark: a dot, a triangle, a square, a diamond, a cross or a ring.
+/// Its mark: a dot, a bar, a square, a diamond, a cross or a ring.
 std::string outcome_mark(OutcomeKind kind, const ChartPoint& at, double size);
 
 /// How many kicks there are of each.
