@@ -24,8 +24,8 @@ constexpr double kSlowestClimb_mps = 1.5;  // of a ball that leaves the floor by
 constexpr double kBlockedAtOnce = 0.65;   // of them: before the ball was first seen in flight
 constexpr double kStopped_per_s = 0.004;  // the referee stops the game for something else while the ball flies
 constexpr double kAgainstTheEnd = 1e-4;   // the tracker saw the ball on the other side of the line
-constexpr double kAtLeastSaved =
-    0.1;  // of the balls that somebody stops right before the line: hardly anybody else stands
+// Of the balls that somebody stops right before the line on their way in: few but a keeper stand there.
+constexpr double kAtLeastSaved = 0.02;
 constexpr double kSystematic_m = 0.01;  // of the crossing: goal, camera and ball are not known better
 constexpr double kRestDoubt_mps = 0.15;
 constexpr double kUntouched = 0.9;  // probability from which on a flight tells of the kicker

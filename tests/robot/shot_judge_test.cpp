@@ -93,7 +93,7 @@ TEST(ShotJudge, ABallThatIsStoppedRightBeforeTheLineOnItsWayInIsSaved) {
   EXPECT_FALSE(saved.parabola) << "it was touched";
   EXPECT_EQ(turned(0.5, 1.6, 0.4, 0.5).outcome, Outcome::kBlocked) << "it was to go wide";
   EXPECT_EQ(turned(1.5, 0.5, 0.4, 0.5).outcome, Outcome::kBlocked) << "no keeper stands there";
-  EXPECT_EQ(turned(0.5, 0.5, 0.4, 0.005).outcome, Outcome::kOnTarget) << "who else stands there";
+  EXPECT_EQ(turned(0.5, 0.5, 0.4, 0.005).outcome, Outcome::kUnknown) << "the first one of a match";
 }
 
 TEST(SaveWatch, TakesTheShareOfSavesFromTheProbabilitiesOfAllShots) {
