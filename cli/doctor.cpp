@@ -143,7 +143,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
       "Of the network: 0 nothing is bad, warnings may stand; 1 something is. The firewall's rules are read where nft "
       "is\n"
       "installed and permits it, as root.");
-  auto* const logs = verb->add_option("logs", flags->logs, "match logs of any version");
+  auto* const logs = verb->add_option("logs", flags->logs, "match logs");
   verb->add_flag("--network", flags->network, "interface, multicast, buffers, clock, ports, peers, firewall")
       ->excludes(logs);
   verb->add_option("--config", flags->config, "whose [domain] is looked at")

@@ -93,7 +93,7 @@ void add_export(CLI::App& app, int& exit_code) {
       "of log/schema/schema.sql; names of columns say the units, NULL is an empty cell, and every number is read\n"
       "back to the bit. The log is only read.");
   const auto flags = std::make_shared<ExportFlags>();
-  verb->add_option("log", flags->log, "Match log of any version")->required();
+  verb->add_option("log", flags->log, "Match log")->required();
   verb->add_option("--csv", flags->csv, "New folder: a CSV file a stream")->type_name("FOLDER");
   verb->add_option("--mcap", flags->mcap, "New file: all streams in time, with what a 3D view shows")
       ->type_name("FILE");

@@ -100,7 +100,7 @@ void add_merge(CLI::App& app, int& exit_code) {
       "become the log that one run writes; a shard that lacks, is not finished or of another experiment is refused.");
   const auto arguments = std::make_shared<MergeArguments>();
   verb->add_option("out", arguments->out, "The new log, must not exist")->required();
-  verb->add_option("logs", arguments->logs, "Match logs of any version, merged ones, too")->required();
+  verb->add_option("logs", arguments->logs, "Match logs, merged ones, too")->required();
   verb->add_option("--reference", arguments->reference_robot,
                    "Robot by whose clock times are aligned, 0: the base's; without: the one that most were measured "
                    "against")

@@ -122,7 +122,7 @@ void print_metrics() {
 void add_query(CLI::App& app, int& exit_code) {
   auto* const verb = app.add_subcommand("query", "Ask a match log: a metric by its name, or one SELECT of your own");
   verb->footer(
-      "Tables and columns are those of log/schema/schema.sql, in a log of an older version, too; view\n"
+      "Tables and columns are those of log/schema/schema.sql; view\n"
       "counted_kicks has each kick once. The log is only read.");
   const auto arguments = std::make_shared<QueryArguments>();
   auto* const log = verb->add_option("log", arguments->log, "Match log, such as out/match.db");

@@ -124,7 +124,7 @@ void fields(V& v, Keeper& k) {
   v("side_extension_m", k.side_extension_m, Range{0.0, 1.0});
   v("up_extension_m", k.up_extension_m, Range{0.0, 1.0});
   v("extension_s", k.extension_s, Range{0.0, 5.0});
-  v("advance_m", k.advance_m, Range{0.0, 3.0});
+  v("advance_m", k.advance_m, Range{0.0, 0.7});
   v("guess_m", k.guess_m, Range{0.0, 1.2});
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 const char* const kEnvironment =
     ".SH ENVIRONMENT\n.TP\n\\fBTRIVELA_CONFIG\\fR\nthe folder of the shipped configuration, before all other places\n"
-    ".TP\n\\fBCYCLONEDDS_URI\\fR\nsettings of the network that go before those of the domain's own file\n";
+    ".TP\n\\fBCYCLONEDDS_URI\\fR\nof no effect on nodes, whose network is that of [domain]\n";
 const char* const kFiles =
     ".SH FILES\n.TP\n\\fI/etc/trivela\\fR\nconfiguration, where the program has none beside it\n"
     ".TP\n\\fI/etc/trivela/robot.env\\fR\nwhat this machine's nodes are started with\n"

@@ -38,6 +38,7 @@ NumbersOf of_group(const GroupResult& group) {
   of.numbers["kicks"] = counted(group.kicks());
   of.numbers["unknown_share"] = stats::efficiency({group.unknown, group.kicks()});
   of.numbers["on_target_per_opportunity"] = stats::efficiency(group.per_opportunity());
+  of.numbers["goals_per_opportunity"] = stats::efficiency({group.goals, group.opportunities});
   of.numbers["kicks_per_min"] = per_min(group.kicks());
   of.numbers["on_target_per_min"] = per_min(group.inside);
   return of;
@@ -78,11 +79,11 @@ std::vector<GateResult> judge_all(std::span<const Gate> gates, const std::vector
 }  // namespace
 
 const GateMetrics& comparison_gate_metrics() {
-  static const GateMetrics metrics{
-      {"difference", "difference_lo", "difference_hi", "p", "efficiency", "efficiency_lo", "efficiency_hi", "kicks",
-       "inside", "unknown_share", "on_target_per_opportunity", "kicks_per_min", "on_target_per_min"},
-      {},
-      false};
+  static const GateMetrics metrics{{"difference", "difference_lo", "difference_hi", "p", "efficiency", "efficiency_lo",
+                                    "efficiency_hi", "kicks", "inside", "unknown_share", "on_target_per_opportunity",
+                                    "goals_per_opportunity", "kicks_per_min", "on_target_per_min"},
+                                   {},
+                                   false};
   return metrics;
 }
 

@@ -67,6 +67,14 @@ double missing(double needed_of_each, stats::Counts older, stats::Counts newer) 
   return needed_of_each - static_cast<double>(std::min(older.n, newer.n));
 }
 
+std::string goals_line(const PairResult& pair) {
+  const Effect& goals = *pair.goals;
+  const stats::Interval ci = goals.clustered ? goals.clustered->ci : goals.independent;
+  return fmt::format("  goals: {} {} of {} opportunities, {} {} of {}; {:+.1f} points, 95 % {}\n", pair.newer,
+                     goals.newer.inside, goals.newer.n, pair.older, goals.older.inside, goals.older.n,
+                     100.0 * goals.difference, points(ci));
+}
+
 std::string remarks_of(const PolicyComparison& c) {
   std::string text;
   const auto& remarks = c.dataset.remarks;
@@ -118,7 +126,10 @@ std::string head_text(const PolicyComparison& c, std::size_t most_differences) {
 
 std::string to_short_text(const PolicyComparison& c) {
   std::string text = head_text(c, kMostDifferences);
-  for (const PairResult& pair : c.pairs) text += short_line_of(pair, c, c.pairs.size());
+  for (const PairResult& pair : c.pairs) {
+    text += short_line_of(pair, c, c.pairs.size());
+    if (pair.goals) text += goals_line(pair);
+  }
   const Design design = c.pairs.front().design;
   text += fmt::format("  {}, outcomes {}; tables, tests and what to be careful about: --all\n",
                       design == Design::kBeforeAfter ? "before and after" : label(design),

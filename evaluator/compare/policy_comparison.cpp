@@ -28,6 +28,7 @@ void count(GroupResult& result, const Opportunity& o) {
   result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
   result.blocked += o.ending == Ending::kBlocked ? 1 : 0;
   result.goals += past_keeper(o) == Ending::kInside ? 1 : 0;
+  result.goal_not_known += o.ending == Ending::kInside && !o.saved ? 1 : 0;
   result.doubt += {o.ending == Ending::kInside ? o.doubt : 0.0, o.ending == Ending::kOutside ? o.doubt : 0.0};
   if (o.ending != Ending::kInside) return;
   result.inside_kicks.bounced.add(o.bounced, o.truth_bounced);

@@ -31,6 +31,7 @@ struct GroupResult {
   stats::LabelDoubt doubt;             ///< of the labels
   std::int64_t blocked = 0;            ///< where they stand apart; otherwise they are outside
   std::int64_t goals = 0;              ///< inside, and known that no keeper stopped them
+  std::int64_t goal_not_known = 0;     ///< inside, and not known whether a keeper stopped them
   InsideKicks inside_kicks;            ///< of those inside
   std::size_t matches = 0;             ///< 0: not known
   std::optional<double> minutes;       ///< of play; none: not known

@@ -27,6 +27,7 @@ Json group_json(const GroupResult& g, bool keeper, bool blocked_apart) {
           {"bounced", said_json(g.inside_kicks.bounced, "bounced")},
           {"saved", said_json(g.inside_kicks.saved, "saved")},
           {"goals", keeper ? Json(g.goals) : Json()},
+          {"goal_not_known", keeper ? Json(g.goal_not_known) : Json()},
           {"goals_per_opportunity", keeper ? json_of(stats::efficiency({g.goals, g.opportunities})) : Json()},
           {"goals_per_opportunity_ci95", keeper && g.opportunities > 0 ? json_of(g.goals_ci) : Json()},
           {"matches", g.matches > 0 ? Json(g.matches) : Json()},

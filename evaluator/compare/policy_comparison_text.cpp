@@ -83,11 +83,13 @@ std::string inside_text(const PolicyComparison& c) {
   for (const GroupResult& g : c.groups) groups.push_back({g.name, g.inside_kicks});
   std::string text = inside_lines(groups);
   if (!text.empty()) text = "\nOf the balls inside\n" + text;
-  if (!c.dataset.keeper || !c.dataset.has_opportunities) return text;
-  Table table = {{c.by, "inside", "goals", "goals an opp.", "95 %"}};
+  if (!c.dataset.keeper) return text;
+  Table table = {{c.by, "inside", "goals", "not known", "goals an opp.", "95 %"}};
   for (const GroupResult& g : c.groups) {
     const stats::Counts goals{g.goals, g.opportunities};
-    table.push_back({g.name, whole(g.inside), whole(g.goals), share(goals), share_ci(goals, g.goals_ci)});
+    table.push_back({g.name, whole(g.inside), whole(g.goals), whole(g.goal_not_known),
+                     g.opportunities > 0 ? share(goals) : "-",
+                     g.opportunities > 0 ? share_ci(goals, g.goals_ci) : "-"});
   }
   return text + fmt::format("\nGoals: inside and not saved, {}\n", c.dataset.outcome) + text_table(table);
 }

@@ -30,6 +30,10 @@ struct SaidOfInside {
 struct InsideKicks {
   SaidOfInside bounced;
   SaidOfInside saved;
+  std::int64_t by_people = 0;  ///< of which somebody says whether they were saved
+
+  /// Goals are to be shown: a keeper saved something, or people say what were goals.
+  bool goals() const { return saved.observed_yes > 0 || by_people > 0; }
 };
 
 struct NamedInside {

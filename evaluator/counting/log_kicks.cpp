@@ -181,7 +181,7 @@ std::vector<std::size_t> enter_opportunities(KickDataset& dataset, const LoggedO
       opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(dataset.strata, stratum);
       opportunity.setting = settings.of(session, o.policy);
       opportunity.calibration = calibrations.try_emplace(session.calibration_id, calibrations.size()).first->second;
-      dataset.keeper = dataset.keeper || opportunity.saved.value_or(false);
+      dataset.keeper = dataset.keeper || o.says_goals || opportunity.saved.value_or(false);
       rows.push_back(i);
     }
   }

@@ -42,6 +42,7 @@ struct SeenKick {
   std::optional<bool> truth_bounced;
   std::optional<bool> saved;
   std::optional<bool> truth_saved;
+  bool says_goals = false;
 };
 
 // What the logs say, of every session; what counts is known when all are read.
@@ -134,7 +135,8 @@ void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, const T
                           .bounced = row.find<bool>("bounced"),
                           .truth_bounced = row.find<bool>("truth_bounced"),
                           .saved = row.find<bool>("saved"),
-                          .truth_saved = row.find<bool>("truth_saved")});
+                          .truth_saved = row.find<bool>("truth_saved"),
+                          .says_goals = row.get<bool>("label_says_goals")});
   });
 }
 
@@ -194,6 +196,7 @@ void add_kicks(const std::vector<SeenKick>& kicks, const SessionIndex& sessions_
     o.truth_bounced = kick.truth_bounced;
     o.saved = kick.saved;
     o.truth_saved = kick.truth_saved;
+    o.says_goals = kick.says_goals;
   }
   for (std::size_t i = 0; i < kNoGoals.size(); ++i) {
     if (no_goals[i] == 0) continue;
@@ -283,11 +286,22 @@ class OpportunityReading {
   std::vector<std::pair<std::uint32_t, std::string>> cut_short_;  // by place of the session
 };
 
+void append(std::vector<log::GivenLabel>& all, std::vector<log::GivenLabel> more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
 }  // namespace
 
 LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>& logs, bool truth) {
   OpportunityReading reading(truth);
-  for (const std::filesystem::path& path : logs) reading.add(log::Reader(path), path.string());
+  std::vector<log::GivenLabel> labels;
+  for (const std::filesystem::path& path : logs)
+    if (logs.size() > 1) append(labels, log::Reader(path, log::Check::kSchema).labels());
+  for (const std::filesystem::path& path : logs) {
+    log::Reader reader(path);
+    reader.hear_labels(labels);
+    reading.add(reader, path.string());
+  }
   reading.sessions_read().refuse_replays_alone();
   reading.settle();
   return std::move(reading).finish();
@@ -296,6 +310,10 @@ LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>&
 LoggedOpportunities read_opportunities(std::span<const OpenLog> logs, bool truth) {
   OpportunityReading reading(truth);
   std::vector<SessionPlaces> places;
+  std::vector<log::GivenLabel> labels;
+  for (const OpenLog& log : logs)
+    if (logs.size() > 1) append(labels, log.reader->labels());
+  for (const OpenLog& log : logs) log.reader->hear_labels(labels);
   for (const OpenLog& log : logs) places.push_back(reading.add(*log.reader, log.name));
   reading.settle();
   for (std::size_t i = 0; i < logs.size(); ++i) {

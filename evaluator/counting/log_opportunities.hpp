@@ -47,7 +47,8 @@ struct LoggedOpportunity {
   std::optional<bool> bounced{};        ///< as observed
   std::optional<bool> truth_bounced{};  ///< by the simulator's truth
   std::optional<bool> saved{};          ///< on target, and a keeper stopped it: as observed or said by hand
-  std::optional<bool> truth_saved{};    ///< by the simulator's truth
+  std::optional<bool> truth_saved{};    ///< by the simulator's truth; none: not on target by that
+  bool says_goals = false;              ///< somebody says of it goal or saved
   bool has_possession = true;           ///< false: a kick alone
 };
 

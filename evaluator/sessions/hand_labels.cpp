@@ -9,8 +9,12 @@
 namespace trivela::evaluator {
 
 bool disagree(const std::string& by_hand, const std::string& observed) {
-  const bool inside = by_hand == "goal" || by_hand == "saved" || by_hand == "on_target", seen = observed == "on_target";
-  return inside || by_hand == "outside" ? inside != seen : by_hand != observed;
+  const auto on_target = [](const std::string& outcome) {
+    return outcome == "goal" || outcome == "saved" || outcome == "on_target";
+  };
+  if (by_hand == "outside") return on_target(observed);
+  if (!on_target(by_hand) || !on_target(observed)) return by_hand != observed;
+  return by_hand != observed && by_hand != "on_target" && observed != "on_target";
 }
 
 HandLabels hand_labels_of(const log::Reader& reader, const std::set<std::int64_t>& sessions) {

@@ -35,6 +35,8 @@ const CsvCells kCsvMore = {"not_said",
                            "observed_saved_of",
                            "truth_saved",
                            "truth_saved_of",
+                           "goals",
+                           "goal_not_known",
                            "expected_wrong_inside",
                            "expected_wrong_outside",
                            "repeated_in_paired_halves",
@@ -74,6 +76,8 @@ std::string csv_row_line(const PolicyRow& row, const std::string& robot_id, cons
   for (const SaidOfInside& said : {row.inside_kicks.bounced, row.inside_kicks.saved})
     for (const std::int64_t n : {said.observed_yes, said.observed, said.truth_yes, said.truth})
       cells.push_back(csv_cell(n));
+  cells.push_back(csv_cell(row.goals()));
+  cells.push_back(csv_cell(row.inside() - row.inside_kicks.saved.observed));
   cells.push_back(csv_cell(row.doubt.inside));
   cells.push_back(csv_cell(row.doubt.outside));
   cells.push_back(csv_cell(row.repeated));

@@ -25,6 +25,8 @@ Json policy_json(const PolicyRow& row) {
           {"kicks_per_min", json_of(row.kicks_per_min())},
           {"bounced", said_json(row.inside_kicks.bounced, "bounced")},
           {"saved", said_json(row.inside_kicks.saved, "saved")},
+          {"goals", row.goals()},
+          {"goal_not_known", row.inside() - row.inside_kicks.saved.observed},
           {"blocked", row.blocked_apart ? "apart" : "outside"},
           {"misses", misses}};
 }

@@ -45,6 +45,8 @@ constexpr std::array kOfRow{
                 return stats::efficiency({row.unknown(), row.kicks()});
               }},
     RowMetric{"blocked", [](const PolicyRow& row) { return count_of(row.blocked()); }},
+    RowMetric{"goals", [](const PolicyRow& row) { return count_of(row.goals()); }},
+    RowMetric{"saved", [](const PolicyRow& row) { return count_of(row.inside_kicks.saved.observed_yes); }},
     RowMetric{"minutes", [](const PolicyRow& row) { return row.played_min; }},
     RowMetric{"kicks_per_min", [](const PolicyRow& row) { return per_min(row.kicks(), row); }},
     RowMetric{"on_target_per_min", [](const PolicyRow& row) { return per_min(row.inside(), row); }}};

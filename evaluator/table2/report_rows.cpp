@@ -109,7 +109,8 @@ void add_kicks(Rows& rows, const log::Reader& reader) {
                    const auto add = [&](std::int64_t& sum, const char* column) {
                      sum += row.get<std::int64_t>(column);
                    };
-                   auto& [bounced, saved] = of.inside_kicks;
+                   auto& [bounced, saved, by_people] = of.inside_kicks;
+                   add(by_people, "by_people");
                    add(bounced.observed, "observed");
                    add(bounced.observed_yes, "observed_bounced");
                    add(bounced.truth, "truth");

@@ -179,7 +179,7 @@ std::int64_t Report::unclosed_sessions() const {
 }
 
 bool Report::keeper() const {
-  return std::ranges::any_of(policies, [](const PolicyRow& row) { return row.inside_kicks.saved.observed_yes > 0; });
+  return std::ranges::any_of(policies, [](const PolicyRow& row) { return row.inside_kicks.goals(); });
 }
 
 std::int64_t Report::simulated_sessions() const {

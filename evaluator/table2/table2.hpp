@@ -114,7 +114,7 @@ struct Report {
 
   std::vector<GateResult> gates;  ///< of whoever asked (judge_gates())
 
-  /// A keeper saved something: goals are fewer than balls inside.
+  /// A keeper saved something, or people say what were goals.
   bool keeper() const;
 
   std::int64_t rows_missing() const;

@@ -167,8 +167,9 @@ std::string label_warning(const std::string& arm, const ArmTally& observed) {
   const Effect said = share_of(observed, Measure::kPerOpportunity), is = share_of(truth, Measure::kPerOpportunity);
   if (!has_interval(said) || (is.value >= said.ci.lo && is.value <= said.ci.hi)) return {};
   return fmt::format(
-      "{}: the observer's labels are wrong: {:.4f} ({:.4f} to {:.4f}) on target an opportunity by them, {:.4f} by the "
-      "simulator's truth\n",
+      "{}: many labels are wrong or unknown: {:.4f} ({:.4f} to {:.4f}) on target an opportunity by the observer, "
+      "{:.4f} "
+      "by the simulator's truth\n",
       arm, said.value, said.ci.lo, said.ci.hi, is.value);
 }
 

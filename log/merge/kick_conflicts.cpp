@@ -31,13 +31,13 @@ void KickConflicts::add(const MergeSource& file) {
     file.reader()->query(
         "SELECT k.robot_id, k.kick_id, k.t_ns, s.seed, iif(s.match_id IS NULL, 0, k.session_id) AS of_experiment, "
         "k.policy, "
-        "k.accepted, k.refusal, k.outcome, k.hand_outcome FROM labelled_kicks AS k JOIN sessions AS s ON s.session_id "
+        "k.accepted, k.refusal, k.outcome, k.hand_label FROM labelled_kicks AS k JOIN sessions AS s ON s.session_id "
         "= "
         "k.session_id",
         [&](const NamedCells& row) {
           const auto accepted = row.find<bool>("accepted");
           const auto outcome = row.find<std::string>("outcome");
-          const auto by_hand = row.find<std::string>("hand_outcome");
+          const auto by_hand = row.find<std::string>("hand_label");
           const Kick kick{row.get<int>("robot_id"), row.get<std::int64_t>("kick_id"), row.get<std::int64_t>("t_ns"),
                           row.find<std::int64_t>("seed"), row.get<std::int64_t>("of_experiment")};
           say(kick, "policy", source, row.get<std::string>("policy"));

@@ -77,6 +77,34 @@ void Reader::hold_kicks() const {
   });
 }
 
+std::vector<GivenLabel> Reader::labels() const {
+  using L = GivenLabel;
+  return rows<L>(
+      "SELECT s.uuid, l.robot_id, l.kick_id, l.utc_ns, l.who, l.t_ns, l.outcome, l.note FROM main.labels AS l "
+      "JOIN main.sessions AS s ON s.session_id = l.session_id",
+      &L::uuid, &L::robot_id, &L::kick_id, &L::utc_ns, &L::who, &L::t_ns, &L::outcome, &L::note);
+}
+
+void Reader::hear_labels(const std::vector<GivenLabel>& labels) {
+  SQLite::Statement insert(impl_->file.database(), "INSERT INTO temp.labels_elsewhere VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const GivenLabel& label : labels) {
+    insert.bind(1, label.uuid);
+    insert.bind(2, label.robot_id);
+    insert.bind(3, label.kick_id);
+    insert.bind(4, label.utc_ns);
+    insert.bind(5, label.who);
+    insert.bind(6, label.t_ns);
+    if (label.outcome) {
+      insert.bind(7, *label.outcome);
+    } else {
+      insert.bind(7);
+    }
+    insert.bind(8, label.note);
+    insert.exec();
+    insert.reset();
+  }
+}
+
 void Reader::leave_out(const std::vector<std::int64_t>& session_ids, const std::vector<RecordedKick>& kicks) {
   SQLite::Database& database = impl_->file.database();
   SQLite::Statement session(database, "INSERT OR IGNORE INTO temp.left_out_sessions VALUES (?)");

@@ -58,6 +58,17 @@ struct RecordedKick {
   std::int64_t kick_id = 0;
 };
 
+/// A row of table labels, with the uuid of its session.
+struct GivenLabel {
+  std::string uuid;
+  int robot_id = 0;
+  std::int64_t kick_id = 0, utc_ns = 0;
+  std::string who;
+  std::int64_t t_ns = 0;
+  std::optional<std::string> outcome;
+  std::string note;
+};
+
 /// Part of a robot's stream.
 struct StreamSpan {
   std::int64_t session_id = 0;
@@ -130,6 +141,12 @@ class Reader final : public Queries {
   /// From now on every question about kicks is answered out of memory, where there are not too many for that, with the
   /// same answers: putting each together takes five looks into the file.
   void hold_kicks() const;
+
+  /// The rows of table labels.
+  std::vector<GivenLabel> labels() const;
+
+  /// From now on these count like the log's own, where it has their session.
+  void hear_labels(const std::vector<GivenLabel>& labels);
 
   /// From now on the view counted_kicks of this reader has neither kicks of these sessions nor these kicks.
   void leave_out(const std::vector<std::int64_t>& session_ids, const std::vector<RecordedKick>& kicks);

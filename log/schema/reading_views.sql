@@ -44,6 +44,13 @@ JOIN kick_decisions AS a ON a.session_id = d.session_id AND a.robot_id = d.robot
       ORDER BY seq DESC LIMIT 1), 0)
   ORDER BY seq LIMIT 1)
 WHERE d.fire = 1;
+-- Labels that other logs have of the same sessions.
+CREATE TEMP TABLE labels_elsewhere (uuid TEXT NOT NULL, robot_id INTEGER NOT NULL, kick_id INTEGER NOT NULL,
+  utc_ns INTEGER NOT NULL, who TEXT NOT NULL, t_ns INTEGER NOT NULL, outcome TEXT, note TEXT NOT NULL) STRICT;
+CREATE TEMP VIEW all_labels AS
+SELECT session_id, robot_id, kick_id, utc_ns, who, t_ns, outcome, note FROM main.labels
+UNION SELECT s.session_id, e.robot_id, e.kick_id, e.utc_ns, e.who, e.t_ns, e.outcome, e.note
+FROM labels_elsewhere AS e JOIN main.sessions AS s ON s.uuid = e.uuid;
 -- What people say of kicks: the latest label of each, unless it is withdrawn, for every recording of that kick in the log.
 -- An experiment's kicks are nobody else's.
 -- goal and saved are on_target in outcome, and stand as they are in label.
@@ -53,7 +60,7 @@ SELECT session_id, robot_id, kick_id, utc_ns, who, note, outcome AS label,
 FROM (
   SELECT s.session_id, l.robot_id, l.kick_id, l.utc_ns, l.who, l.outcome, l.note,
     row_number() OVER (PARTITION BY s.session_id, l.robot_id, l.kick_id ORDER BY l.utc_ns DESC, l.who DESC) AS place
-  FROM labels AS l
+  FROM all_labels AS l
   JOIN sessions AS own ON own.session_id = l.session_id
   JOIN sessions AS s ON s.session_id = l.session_id
     OR (s.match_id IS NULL AND own.match_id IS NULL AND s.seed IS own.seed AND EXISTS (
@@ -65,7 +72,7 @@ WHERE place = 1 AND outcome IS NOT NULL;
 -- was decided, 'carried_too_far' by its carry; and with what counts as their outcome, label: what people say of it
 -- (hand_outcome; NULL: nothing), else what the observer does (outcome). One on target that is no goal has no_goal,
 -- 'outside' is one of which somebody who saw it did not say how. saved: whether a keeper stopped a kick on target (NULL:
--- not known, not on target, or no goal).
+-- not known, not on target, or no goal). label_says_goals: 1: somebody says of this kick goal or saved.
 CREATE TEMP VIEW labelled_kicks AS
 SELECT k.*,
   CASE WHEN k.hand_outcome IS NULL AND k.outcome = 'unknown' AND k.observed_p_on_target = 0.0
@@ -75,7 +82,9 @@ SELECT k.*,
     ELSE coalesce(k.hand_outcome, k.outcome) END AS label,
   CASE WHEN k.no_goal IS NOT NULL OR coalesce(k.hand_outcome, k.outcome) <> 'on_target' THEN NULL
     WHEN k.hand_label IN ('goal', 'saved') THEN k.hand_label = 'saved'
-    WHEN k.outcome = 'on_target' THEN k.observed_p_saved > 0.5 * coalesce(k.observed_p_on_target, 1.0) END AS saved
+    WHEN k.outcome = 'on_target' THEN k.observed_p_saved > 0.5 * coalesce(k.observed_p_on_target, 1.0) END AS saved,
+  coalesce(k.hand_label IN ('goal', 'saved'), 0) OR (k.observed_p_saved IS NOT NULL
+    AND k.session_id IN (SELECT session_id FROM imported_sessions)) AS label_says_goals
 FROM (
   SELECT j.*, h.outcome AS hand_outcome, h.label AS hand_label, coalesce(h.utc_ns, 0) AS labelled_utc_ns,
     CASE WHEN j.session_id IN (SELECT session_id FROM ruled_sessions) THEN (

@@ -176,6 +176,53 @@ TEST_F(Labels, HoldForTheKickInEveryRecordingOfIt) {
   EXPECT_EQ(report.hand_labels.kicks, 1);
 }
 
+TEST_F(Labels, OfACopyCountWhicheverLogComesFirst) {
+  match("a.db");
+  std::filesystem::copy_file(path("a.db"), path("b.db"));
+  say(1, "saved", 1000, "Ada", "a.db");
+  say(1, "over", 2000, "Ben", "b.db");
+  say(2, "saved", 1000, "Ben", "b.db");
+  for (const auto& [first, second] : {std::pair{"a.db", "b.db"}, std::pair{"b.db", "a.db"}}) {
+    Reader one(path(first)), other(path(second));
+    const std::array logs{OpenLog{&one, first}, OpenLog{&other, second}};
+    const Report report = make_report(logs);
+    EXPECT_EQ(report.policies.at(0).inside(), 1) << first;
+    EXPECT_EQ(report.policies.at(0).inside_kicks.saved.observed_yes, 1) << first;
+    std::string by;
+    int saved = 0;
+    for (const auto& o : read_log_kicks({path(first), path(second)}, {}, by).opportunities)
+      saved += o.ending == Ending::kInside && o.saved.value_or(false) ? 1 : 0;
+    EXPECT_EQ(saved, 1) << first;
+  }
+}
+
+TEST_F(Labels, SayGoalOrSavedOfAKickOnTarget) {
+  match();
+  EXPECT_FALSE(make_report(Reader(path())).keeper());
+  say(1, "goal");
+  say(2, "saved");
+  say(4, "on_target");
+  const Report report = make_report(Reader(path()));
+  const PolicyRow& row = report.policies.at(0);
+  EXPECT_EQ(row.inside(), 3);
+  EXPECT_EQ(row.goals(), 1);
+  EXPECT_EQ(row.inside_kicks.saved.observed_yes, 1);
+  EXPECT_TRUE(report.keeper());
+  EXPECT_THAT(to_json(report), HasSubstr("\"goal_not_known\": 1"));
+  say(1, std::nullopt, 2000);
+  EXPECT_EQ(make_report(Reader(path())).policies.at(0).goals(), 0) << "the observer had not said it";
+}
+
+TEST(HandLabel, ContradictsWhatTheObserverSaysOfTheKeeper) {
+  EXPECT_TRUE(disagree("goal", "saved"));
+  EXPECT_TRUE(disagree("saved", "goal"));
+  EXPECT_FALSE(disagree("saved", "on_target"));
+  EXPECT_FALSE(disagree("on_target", "goal"));
+  EXPECT_TRUE(disagree("saved", "over"));
+  EXPECT_TRUE(disagree("outside", "goal"));
+  EXPECT_FALSE(disagree("outside", "over"));
+}
+
 TEST_F(Labels, DecideWhichOfTwoLogsCounts) {
   match("a.db", '1');
   match("b.db", '2');
