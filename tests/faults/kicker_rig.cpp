@@ -84,12 +84,13 @@ void KickerRig::strangers() {
   }
 }
 
-void KickerRig::write_order(bus::Writer<msg::KickOrder>& writer, OrderKind kind) {
+void KickerRig::write_order(bus::Writer<msg::KickOrder>& writer, OrderKind kind, std::int64_t ahead_ns) {
   const Ordered ordered{steady_now_ns(), kind, static_cast<int>(20 + ids_ % kPowers)};
   msg::KickOrder out{};
   out.robot_id = 1;
   out.seq = out.kick_id = static_cast<std::int64_t>(++ids_);
   out.t_ns = out.fire_t_ns = ordered.t_ns - (kind == OrderKind::kStale ? 400 * kMs : 0);
+  out.fire_t_ns += ahead_ns;
   out.valid_until_t_ns = ordered.t_ns + 1'000 * kMs;
   out.power = kind == OrderKind::kOutOfRange ? 200.0 : ordered.units;
   out.possession = kind != OrderKind::kWithoutBall;
@@ -98,7 +99,8 @@ void KickerRig::write_order(bus::Writer<msg::KickOrder>& writer, OrderKind kind)
 }
 
 /// The signal comes within 2 ms of an order that the process may fire: before its receipt, between receipt and pulse,
-/// or after.
+/// or after. A stop comes while a shot that was accepted waits for its instant, so that each one is late when the
+/// process goes on.
 void KickerRig::signal_amid_a_kick(int signal) {
   const std::int64_t rested_ns = steady_now_ns() + 600 * kMs;
   while (steady_now_ns() < rested_ns) {
@@ -106,8 +108,11 @@ void KickerRig::signal_amid_a_kick(int signal) {
     board_->wait_for_pulse(board_->pulses().size(), kBetweenOrders);
   }
   say();
-  write_order(decision_, OrderKind::kLawful);
-  const std::int64_t then_ns = steady_now_ns() + static_cast<std::int64_t>(random_() % 2'000'000);
+  const bool stops = signal == SIGSTOP;
+  write_order(decision_, OrderKind::kLawful, stops ? 15 * kMs : 0);
+  const std::int64_t at_most_ns = stops ? 8 * kMs : 2 * kMs;
+  const std::int64_t then_ns = steady_now_ns() + (stops ? 6 * kMs : 0) +
+                               static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(at_most_ns));
   while (steady_now_ns() < then_ns) continue;
   driver_->signal(signal);
   if (signal == SIGKILL) driver_->wait();

@@ -61,7 +61,7 @@ class KickerRig {
   void start_driver();
   void say();
   void order();
-  void write_order(bus::Writer<msg::KickOrder>& writer, OrderKind kind);
+  void write_order(bus::Writer<msg::KickOrder>& writer, OrderKind kind, std::int64_t ahead_ns = 0);
   void signal_amid_a_kick(int signal);
 
   std::unique_ptr<TroubledBoard> board_;
