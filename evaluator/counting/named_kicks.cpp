@@ -61,9 +61,7 @@ std::vector<NamedKick> named_kicks(const log::Reader& reader) {
   std::vector<NamedKick> kicks;
   reader.query(
       "SELECT k.session_id, s.uuid, k.robot_id, k.kick_id, k.kick_id & 0xffffffffff AS number, k.t_ns, "
-      "k.t_ns - s.started_t_ns AS after_ns, k.policy, coalesce(CASE WHEN k.outcome "
-      "<> 'on_target' OR k.observed_p_saved IS NULL THEN k.outcome WHEN k.observed_p_saved > 0.5 * "
-      "coalesce(k.observed_p_on_target, 1.0) THEN 'saved' ELSE 'goal' END, '') AS observed, h.label, h.who "
+      "k.t_ns - s.started_t_ns AS after_ns, k.policy, coalesce(k.observed, '') AS observed, h.label, h.who "
       "FROM counted_kicks AS k JOIN sessions AS s ON s.session_id = k.session_id LEFT JOIN hand_labels AS h ON "
       "h.session_id = k.session_id AND h.robot_id = k.robot_id AND h.kick_id = k.kick_id WHERE k.accepted IS NOT 0 "
       "ORDER BY s.started_t_ns, k.session_id, k.t_ns, k.robot_id",

@@ -4,8 +4,7 @@
 -- observed (goal, saved where that is known; NULL: no outcome came), who, labelled_utc_ns, note.
 SELECT k.session_id, k.robot_id, k.kick_id, k.kick_id & 0xffffffffff AS number, k.t_ns, k.policy,
   h.label AS outcome,
-  CASE WHEN k.outcome <> 'on_target' OR k.observed_p_saved IS NULL THEN k.outcome
-    WHEN k.observed_p_saved > 0.5 * coalesce(k.observed_p_on_target, 1.0) THEN 'saved' ELSE 'goal' END AS observed, h.who, h.utc_ns AS labelled_utc_ns, h.note
+  k.observed, h.who, h.utc_ns AS labelled_utc_ns, h.note
 FROM counted_kicks AS k
 JOIN hand_labels AS h ON h.session_id = k.session_id AND h.robot_id = k.robot_id AND h.kick_id = k.kick_id
 WHERE k.accepted IS NOT 0

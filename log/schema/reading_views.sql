@@ -73,6 +73,7 @@ WHERE place = 1 AND outcome IS NOT NULL;
 -- (hand_outcome; NULL: nothing), else what the observer does (outcome). One on target that is no goal has no_goal,
 -- 'outside' is one of which somebody who saw it did not say how. saved: whether a keeper stopped a kick on target (NULL:
 -- not known, not on target, or no goal). label_says_goals: 1: somebody says of this kick goal or saved.
+-- observed: outcome, with goal and saved where the observer knows it.
 CREATE TEMP VIEW labelled_kicks AS
 SELECT k.*,
   CASE WHEN k.hand_outcome IS NULL AND k.outcome = 'unknown' AND k.observed_p_on_target = 0.0
@@ -84,7 +85,9 @@ SELECT k.*,
     WHEN k.hand_label IN ('goal', 'saved') THEN k.hand_label = 'saved'
     WHEN k.outcome = 'on_target' THEN k.observed_p_saved > 0.5 * coalesce(k.observed_p_on_target, 1.0) END AS saved,
   coalesce(k.hand_label IN ('goal', 'saved'), 0) OR (k.observed_p_saved IS NOT NULL
-    AND k.session_id IN (SELECT session_id FROM imported_sessions)) AS label_says_goals
+    AND k.session_id IN (SELECT session_id FROM imported_sessions)) AS label_says_goals,
+  CASE WHEN k.outcome <> 'on_target' OR k.observed_p_saved IS NULL THEN k.outcome
+    WHEN k.observed_p_saved > 0.5 * coalesce(k.observed_p_on_target, 1.0) THEN 'saved' ELSE 'goal' END AS observed
 FROM (
   SELECT j.*, h.outcome AS hand_outcome, h.label AS hand_label, coalesce(h.utc_ns, 0) AS labelled_utc_ns,
     CASE WHEN j.session_id IN (SELECT session_id FROM ruled_sessions) THEN (

@@ -189,6 +189,9 @@ TEST(Simulate, MovesALeverAndKicksFlatLikeTheNodesOnTheBus) {
                "--scenario", world, "--shadows", "--every-cycle", "--out", "in.db"});
   const Reader log{folder / "in.db"};
   EXPECT_GE(number_of(log, "SELECT count(*) FROM kicks WHERE kick_kind = 1"), 2);
+  const std::string inside = "SELECT count(*) FROM kicks WHERE outcome = 'on_target' AND truth_outcome = 'on_target' ";
+  EXPECT_GE(number_of(log, inside), 3);
+  EXPECT_EQ(number_of(log, inside + "AND (observed_p_saved > 0.5) <> truth_saved"), 0) << "the truth is the witness";
   EXPECT_THAT(differing_on_the_bus(folder, {"--half", "predictive", "--set", fmt::format("run.robot='{}'", robot),
                                             "--set", fmt::format("run.scenario='{}'", world)}),
               IsEmpty());

@@ -116,5 +116,34 @@ TEST(Keeper, TheIntegralIsThatOfDrawnKicksAndKeepers) {
       }
 }
 
+// A search gives the best that it knows: what is no better need not be computed.
+TEST(Keeper, AChanceAboveTheLeastIsTheSameAndOneBelowIsNotMoreThanThat) {
+  const Goal goal;
+  const KeeperConfig keeper;
+  int above = 0, below = 0;
+  for (double x_m = -1.2; x_m <= 1.2; x_m += 0.1)
+    for (const double z_m : {0.1, 0.5, 0.8, 1.1})
+      for (const double t_s : {0.3, 0.6})
+        for (const double least : {0.05, 0.3, 0.6, 0.9}) {
+          const CrossingSpread there = crossing(x_m, z_m, t_s, 0.2);
+          const double p = p_goal(there, keeper), on_target = p_on_target(there, kBounce, goal);
+          const GoalChance asked = goal_chance(there, kBounce, keeper, {}, goal, {}, least);
+          ++(p > least ? above : below);
+          const double on_target_asked = p_on_target(there, kBounce, goal, {}, least);
+          if (p > least) {
+            EXPECT_EQ(asked.p_goal, p);
+          } else {
+            EXPECT_LE(asked.p_goal, least);
+          }
+          if (on_target > least) {
+            EXPECT_EQ(on_target_asked, on_target);
+          } else {
+            EXPECT_LE(on_target_asked, least);
+          }
+        }
+  EXPECT_GT(above, 50);
+  EXPECT_GT(below, 50);
+}
+
 }  // namespace
 }  // namespace trivela::kicking

@@ -122,7 +122,7 @@ TEST(ShotTracker, ABallThatRestsBeforeTheLineIsShort) {
 }
 
 TEST(ShotTracker, ABallTurnedAwayByAnOpponentIsBlocked) {
-  for (const double opponent_y_m : {5.0, 5.5, 8.0}) {
+  for (const double opponent_y_m : {5.0, 5.5, 8.2}) {
     for (const double opponent_x_m : {0.0, 0.15, 0.3}) {
       for (unsigned seed = 1; seed <= 8; ++seed) {
         Kick kick = aimed(0.0, 0.5);

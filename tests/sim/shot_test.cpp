@@ -149,6 +149,49 @@ TEST(Shot, AKeeperHasWhatItReachesInTime) {
   EXPECT_TRUE(fly(scenario, 0.0, 0.5).result()->saved);
 }
 
+TEST(Shot, AKeeperBeforeItsLineStopsThereWhatWouldGoIn) {
+  Scenario scenario = airless();
+  scenario.keeper.enabled = true;
+  scenario.keeper.guard.sight_sd_mps = 0.0;
+  scenario.keeper.guard.height_m = 2.0;
+  scenario.keeper.advance_m = 0.6;
+  const Shot saved = fly(scenario, 0.2, 0.5);
+  ASSERT_TRUE(saved.result());
+  EXPECT_TRUE(saved.result()->saved);
+  EXPECT_EQ(saved.result()->outcome, Outcome::kOnTarget);
+  EXPECT_NEAR(saved.result()->crossing->x_m, 0.2, 1e-3) << "where it would have crossed";
+  EXPECT_NEAR(saved.result()->crossing->z_m, 0.5, 5e-3);
+  EXPECT_NEAR(static_cast<double>(saved.result()->t_ns), 0.9e9, 2e6) << "5.4 of 6 m";
+  EXPECT_LT(saved.ball().position_m.y(), 8.4) << "it came back";
+  EXPECT_EQ(fly(scenario, 1.3, 0.5).result()->outcome, Outcome::kWideRight) << "it leaves that alone";
+  EXPECT_EQ(fly(scenario, 0.3, 1.3).result()->outcome, Outcome::kOver);
+  // Between the ball and the goal's middle: a tenth of the way.
+  EXPECT_NEAR(keeper_place(scenario, {2.0, 3.0, 0.11}).x_m, 0.2, 1e-12);
+  EXPECT_NEAR(keeper_place(scenario, {2.0, 3.0, 0.11}).y_m, 8.4, 1e-12);
+  scenario.keeper.advance_m = 0.0;
+  EXPECT_EQ(keeper_place(scenario, {2.0, 3.0, 0.11}).x_m, 0.0);
+}
+
+TEST(Shot, AKeeperThatGuessesLeavesTheMiddleWhateverTheBallDoes) {
+  Scenario scenario = airless();
+  scenario.keeper.enabled = true;
+  scenario.keeper.guess_m = 0.6;
+  int left = 0, right = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const auto saved = [&](double x_cross_m) {
+      const double vz = 0.5 - 0.11 + 0.5 * scenario.ball.gravity_mps2;
+      Shot shot{scenario, {{{0.0, 3.0, 0.11}, {x_cross_m, 6.0, vz}}}, 0, kicking::Draws{seed, 0}};
+      for (std::int64_t t = 1; t <= 1100; ++t) shot.advance_to(t * 1'000'000, kFarAway);
+      return shot.result()->saved;
+    };
+    EXPECT_FALSE(saved(0.0)) << seed;
+    EXPECT_NE(saved(-0.6), saved(0.6)) << seed;
+    ++(saved(-0.6) ? left : right);
+  }
+  EXPECT_GT(left, 8);
+  EXPECT_GT(right, 8);
+}
+
 TEST(Shot, WhatAKeeperMistakesIsItsOwnDraw) {
   Scenario scenario = airless();
   scenario.keeper.enabled = true;
