@@ -10,12 +10,12 @@ namespace trivela::config {
 
 template <>
 struct Names<kicking::PolicyName> {
-  static constexpr auto entries = [] {
-    std::array<std::pair<std::string_view, kicking::PolicyName>, kicking::kPolicyCount> all{};
-    for (const kicking::PolicyName policy : kicking::kEveryPolicy)
-      all[static_cast<std::size_t>(policy)] = {kicking::name(policy), policy};
+  static std::vector<std::pair<std::string_view, kicking::PolicyName>> entries() {
+    std::vector<std::pair<std::string_view, kicking::PolicyName>> all;
+    for (const kicking::Policy* policy : kicking::policies())
+      all.emplace_back(policy->facts().name, static_cast<kicking::PolicyName>(all.size()));
     return all;
-  }();
+  }
 };
 template <>
 struct Names<kicking::HeightLaw> {
@@ -162,6 +162,36 @@ void fields(V& v, KeeperConfig& k) {
   v("miss_ratio", k.miss_ratio, Range{0.0, 1.0});
 }
 
+/// [policy.own.NAME] of a policy from outside.
+struct OwnSettings {
+  const Policy& policy;
+  std::vector<double>& values;
+};
+
+template <class V>
+void fields(V& v, OwnSettings& own) {
+  if constexpr (requires { v.name_section(); }) v.name_section();
+  for (std::size_t i = 0; i < own.values.size(); ++i)
+    v(own.policy.settings()[i].key, own.values[i], own.policy.settings()[i].range);
+}
+
+/// [policy.own]: makes the policies known that a file has and this program has not.
+struct OwnPolicies {
+  std::vector<std::vector<double>>& values;
+};
+
+template <class V>
+void fields(V& v, OwnPolicies& own) {
+  if constexpr (requires { v.tables(); }) {
+    for (const auto& [name, keys] : v.tables()) v.require(name, [&] { declare_policy(name, keys); });
+  }
+  complete_own_settings(own.values);
+  for (std::size_t i = 0; i < own.values.size(); ++i) {
+    OwnSettings settings{*policies()[kPolicyCount + i], own.values[i]};
+    v(settings.policy.facts().name, settings);
+  }
+}
+
 template <class V>
 void fields(V& v, PolicyConfig& p) {
   using config::Degrees, config::Range;
@@ -194,6 +224,8 @@ void fields(V& v, PolicyConfig& p) {
   v("keeper", p.keeper);
   v("predictive", p.predictive);
   v("test_drive", p.test_drive);
+  OwnPolicies own{p.own};
+  v("own", own);
 }
 
 }  // namespace trivela::kicking

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   bus::Reader<msg::KickDecision> decisions{participant};
   const auto print = [](const msg::KickDecision& decision) {
     fmt::print("robot {}, {:.2f} s, {}: {} ({}), power {:.2f}, {:.2f} m\n", decision.robot_id,
-               1e-9 * static_cast<double>(decision.t_ns), msg::label(decision.policy), decision.fire ? "fire" : "hold",
+               1e-9 * static_cast<double>(decision.t_ns), msg::policy_name(decision), decision.fire ? "fire" : "hold",
                msg::label(decision.reason), decision.power, decision.distance_m);
   };
   while (decisions.wait(std::chrono::minutes{5})) {  // Ctrl-C ends it before

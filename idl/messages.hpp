@@ -23,6 +23,11 @@ constexpr void for_each_message(F&& f) {
 
 namespace trivela::msg {
 
+/// The name of the policy in charge.
+inline const char* policy_name(const KickDecision& decision) {
+  return decision.policy == POLICY_OWN ? decision.own_policy : label(decision.policy);
+}
+
 /// Whether this receipt is the one with which a kick begins: a second one that accepts says that it may have been
 /// fired.
 inline bool begins_kick(const KickReceipt& receipt) { return receipt.accepted && receipt.refusal == REFUSAL_NONE; }

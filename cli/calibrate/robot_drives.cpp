@@ -16,6 +16,7 @@
 #include "cli/hardware/device_locks.hpp"
 #include "cli/launch/child_process.hpp"
 #include "cli/launch/config_file.hpp"
+#include "cli/launch/node_program.hpp"
 #include "cli/launch/record_match.hpp"
 #include "cli/options/output.hpp"
 #include "emulators/refbox/emulated_box.hpp"
@@ -37,12 +38,13 @@ constexpr const char* kOwnGroup = "224.16.32.1";  // on the loopback, between th
 class NodesOfADrive {
  public:
   NodesOfADrive(const config::Settings& settings, const fs::path& config_file, bool refbox) {
-    const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();
     std::vector<std::string> names = nodes_of_match(settings);
     if (refbox) names.emplace_back("refbox");
-    for (const std::string& name : names)
-      nodes_.emplace_back(name, programs / ("trivela-" + name),
-                          std::vector<std::string>{"--config", config_file.string()});
+    for (const std::string& name : names) {
+      NodeProgram started = node_program(name);
+      started.arguments.insert(started.arguments.end(), {"--config", config_file.string()});
+      nodes_.emplace_back(name, started.program, started.arguments);
+    }
   }
   ~NodesOfADrive() { stop(); }
   NodesOfADrive(const NodesOfADrive&) = delete;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/launch/child_process.hpp"
+#include "cli/launch/node_program.hpp"
 #include "cli/launch/progress_bar.hpp"
 #include "cli/launch/progress_pipe.hpp"
 
@@ -64,20 +65,21 @@ void stop_all(std::deque<ChildProcess>& children, std::size_t last, std::string&
   }
 }
 
-/// Starts processes with one configuration file. The programs are those beside this one.
+/// Starts processes with one configuration file.
 class Starter {
  public:
   explicit Starter(bool quiet) : quiet_(quiet) {}
 
   ChildProcess start(const std::string& node, const std::filesystem::path& config_file, int output) const {
-    return {node, programs_ / ("trivela-" + node), {"--config", config_file.string()}, output};
+    NodeProgram started = node_program(node);
+    started.arguments.insert(started.arguments.end(), {"--config", config_file.string()});
+    return {node, started.program, started.arguments, output};
   }
   ChildProcess start(const std::string& node, const std::filesystem::path& config_file) const {
     return start(node, config_file, quiet_ ? nowhere_.descriptor() : -1);
   }
 
  private:
-  std::filesystem::path programs_ = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   bool quiet_;
   Nowhere nowhere_;
 };

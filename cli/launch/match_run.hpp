@@ -20,7 +20,7 @@ struct MatchResult {
 /// Starts the processes `nodes`, the recorder first, and their `feeder` (the simulator) with one
 /// configuration file, waits until the feeder is through, a node dies or somebody asks to stop through `signals`, and
 /// ends them all, the recorder last, so that the log is finalised. `quiet`: what they print on standard output is not
-/// shown. The programs are those beside this one. Draws a progress bar on a terminal.
+/// shown. Draws a progress bar on a terminal.
 MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals,
                       const std::vector<std::string>& nodes, bool quiet = false);
 

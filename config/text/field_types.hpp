@@ -21,13 +21,23 @@ namespace trivela::config {
 using kicking::Degrees, kicking::Range;
 
 /// The enums that a file may name, specialised beside the struct that uses one:
-/// `static constexpr std::array<std::pair<std::string_view, E>, N> entries`.
+/// `static constexpr std::array<std::pair<std::string_view, E>, N> entries`, or a function `entries()` that gives a
+/// list of such pairs.
 template <class E>
 struct Names;
 
+/// The names and values of E.
+template <class E>
+auto names_of() {
+  if constexpr (requires { Names<E>::entries(); })
+    return Names<E>::entries();
+  else
+    return Names<E>::entries;
+}
+
 template <class E>
 concept NamedEnum = std::is_enum_v<E> && requires {
-  Names<E>::entries.size();
+  names_of<E>().size();
 };
 
 /// Stands for any visitor when asking whether a type lists its fields.

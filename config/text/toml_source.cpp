@@ -176,6 +176,24 @@ const toml::array& TableReader::array_of(std::string_view key, const toml::node&
   return *node.as_array();
 }
 
+std::map<std::string, std::vector<std::string>> TableReader::tables() const {
+  std::map<std::string, std::vector<std::string>> tables;
+  for (const auto& [name, node] : table_) {
+    if (!node.is_table()) continue;
+    auto& keys = tables[std::string{name.str()}];
+    for (const auto& [key, value] : *node.as_table()) keys.emplace_back(key.str());
+  }
+  return tables;
+}
+
+void TableReader::require(std::string_view key, const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const std::invalid_argument& wrong) {
+    fail(key, *table_.get(key), wrong.what());
+  }
+}
+
 std::vector<std::string> TableReader::unknown_keys() const {
   std::vector<std::string> unknown;
   for (const auto& [key, node] : table_) {

@@ -124,6 +124,11 @@ class TableReader {
     inner.refuse_unknown_keys();
   }
 
+  /// The sub-tables by their names, with the keys of each.
+  std::map<std::string, std::vector<std::string>> tables() const;
+  /// Throws Error at that key where `check` throws std::invalid_argument.
+  void require(std::string_view key, const std::function<void()>& check);
+
   /// In words, each key that no field asked for, with its line and the key that was probably meant.
   std::vector<std::string> unknown_keys() const;
 
@@ -151,13 +156,12 @@ class TableReader {
   template <NamedEnum E>
   E enum_of(std::string_view key, const toml::node& node) const {
     if (const auto text = node.value<std::string>()) {
-      for (const auto& [name, value] : Names<E>::entries) {
+      for (const auto& [name, value] : names_of<E>()) {
         if (name == *text) return value;
       }
     }
     std::vector<std::string_view> known;
-    known.reserve(Names<E>::entries.size());
-    for (const auto& entry : Names<E>::entries) known.push_back(entry.first);
+    for (const auto& entry : names_of<E>()) known.push_back(entry.first);
     fail(key, node, "expected one of: " + joined(known));
   }
 

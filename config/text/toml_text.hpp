@@ -72,10 +72,13 @@ class TableText {
     fields(inner, section);
     tables_ += inner.text();
   }
+  /// Its heading is written where it has no key, too.
+  void name_section() { named_ = true; }
 
   /// The table with its heading and its sub-tables.
   std::string text() const {
-    const std::string heading = section_.empty() || keys_.empty() ? "" : fmt::format("\n[{}]\n", section_);
+    const bool bare = section_.empty() || (keys_.empty() && !named_);
+    const std::string heading = bare ? "" : fmt::format("\n[{}]\n", section_);
     return heading + keys_ + tables_;
   }
 
@@ -98,7 +101,7 @@ class TableText {
   }
   template <NamedEnum E>
   static std::string name(E value) {
-    for (const auto& [label, candidate] : Names<E>::entries) {
+    for (const auto& [label, candidate] : names_of<E>()) {
       if (candidate == value) return quoted(label);
     }
     return quoted("?");
@@ -113,6 +116,7 @@ class TableText {
   std::string section_;
   std::string keys_;
   std::string tables_;
+  bool named_ = false;
 };
 
 /// The whole struct as TOML.

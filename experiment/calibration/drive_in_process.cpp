@@ -68,7 +68,7 @@ void add_kicks(const MatchRecord& match, calibration::DriveRecord& record) {
     kick.kick_id = decision.kick_id;
     kick.t_ns = decision.t_ns;
     kick.half = 1;
-    kick.policy = std::string{bus::label(decision.policy)};
+    kick.policy = std::string{msg::policy_name(decision)};
     kick.ordered = true;
     kick.accepted = receipt.accepted;
     if (outcome != nullptr) kick.observed = crossing_of(*outcome);

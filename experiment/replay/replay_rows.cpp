@@ -50,7 +50,7 @@ void ReplayRows::write_decision(const msg::KickDecision& decision) {
   push(decisions_, robot::row_of(decision));
   if (decision.reason != msg::REASON_NOT_PLAYING && assigned_.emplace(decision.half, decision.possession_id).second) {
     robot::RowCells row;
-    robot::write_assignment(row, decision.robot_id, decision.half, decision.possession_id, bus::label(decision.policy),
+    robot::write_assignment(row, decision.robot_id, decision.half, decision.possession_id, msg::policy_name(decision),
                             decision.assignment_probability, decision.t_ns);
     push(assignments_, std::move(row.cells));
   }

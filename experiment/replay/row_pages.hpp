@@ -37,7 +37,14 @@ T message_of(std::span<const log::Value> cells) {
   bus::visit_values(message, [&](auto& field) {
     using Field = std::remove_cvref_t<decltype(field)>;
     if constexpr (bus::Enumeration<Field>) {
-      const auto value = bus::from_label<Field>(cell_as<std::string>(cells[column], column));
+      const auto label = cell_as<std::string>(cells[column], column);
+      auto value = bus::from_label<Field>(label);
+      if constexpr (std::is_same_v<T, msg::KickDecision> && std::is_same_v<Field, msg::Policy>) {
+        if (!value) {
+          value = msg::POLICY_OWN;
+          label.copy(message.own_policy, sizeof message.own_policy - 1);
+        }
+      }
       if (!value) throw log::WrongCell{column, "a label of its enum"};
       field = *value;
     } else if constexpr (std::is_floating_point_v<Field>) {

@@ -65,6 +65,10 @@ void check_policy(const config::ArmFields& arm, kicking::PolicyName policy, cons
     throw BadArgument{fmt::format("{}: {} calibrates a robot (trivela calibrate run) and is no policy of play",
                                   arm.place, kicking::name(policy))};
   }
+  if (facts(policy).needs_program()) {
+    throw BadArgument{
+        fmt::format("{}: the policy {} is another program's: play it with that one", arm.place, kicking::name(policy))};
+  }
   if (facts(policy).needs_model() && !settings.policy.learned) {
     throw BadArgument{fmt::format("{}: the policy {} needs a model: {} 'kick_decision.learned_model=\"FILE\"'",
                                   arm.place, kicking::name(policy), base.set_called)};

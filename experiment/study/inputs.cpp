@@ -61,7 +61,7 @@ struct Finder {
 
   template <class E>
   void law(E& field) {
-    const auto& entries = config::Names<E>::entries;
+    const auto entries = config::names_of<E>();
     if (set && (*set < 0.0 || *set > static_cast<double>(entries.size() - 1) || *set != std::floor(*set))) refuse();
     if (set) field = entries[static_cast<std::size_t>(*set)].second;
     for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -1,6 +1,5 @@
 #include "kicking/policy/policy.hpp"
 
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -33,21 +32,13 @@ PolicyOutput hold(const PolicyConfig& config, const Goal& goal, Reason reason, c
   return output;
 }
 
-/// The memory of this type, a fresh one where the policy before remembered something else.
-template <class Memory>
-Memory& own(PolicyMemory& memory) {
-  Memory* const same = std::get_if<Memory>(&memory);
-  return same != nullptr ? *same : memory.emplace<Memory>();
-}
-
-template <bool kOutlives, class Memory>
-void begin_possession(Memory& memory, std::uint32_t possession_id) {
+void begin_possession(const Policy& policy, PossessionMemory& memory, std::uint32_t possession_id) {
   if (memory.possession_id == possession_id) return;
-  if constexpr (kOutlives) {
+  if (policy.facts().plays()) {
+    policy.clear(memory);
+  } else {
     memory.interrupt();
     memory.fired_t_ns.reset();
-  } else {
-    memory = {};
   }
   memory.possession_id = possession_id;
 }
@@ -59,29 +50,22 @@ Twist within_reach(const PolicyConfig& config, const RobotModel& robot, const Po
   return carry_reach(config, robot, memory).keep(drive, {pose.x_m, pose.y_m}, forward);
 }
 
-/// evaluate() of one row.
-template <std::size_t kRow>
-PolicyOutput evaluate_row(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                          const PolicyInput& input, PolicyMemory& any_memory) {
-  constexpr const auto& row = std::get<kRow>(kPolicyRows);
-  constexpr bool drive = row.facts.kind == PolicyKind::kDrive;
-  auto& memory = own<typename std::remove_cvref_t<decltype(row)>::Remembered>(any_memory);
-  begin_possession<drive>(memory, input.possession_id);
-  if constexpr (row.facts.kind == PolicyKind::kPredictive) memory.watch(config, input);
+/// The policy's own rule, within what holds for every policy.
+PolicyOutput ask(const Policy& policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                 const PolicyInput& input, PossessionMemory& memory) {
+  const bool drive = !policy.facts().plays();
+  begin_possession(policy, memory, input.possession_id);
+  memory.watch(config, input);
   if (const Reason hindered = hindrance(config, input); hindered != Reason::kFire) {
     memory.interrupt();
     return hold(config, goal, hindered, {});
   }
   const bool pending = order_pending(config, input, memory);
   // Between a drive's order and its release nothing may change: the next velocity and the way back are for later.
-  if constexpr (drive) {
-    if (pending) return hold(config, goal, Reason::kOrderPending, memory.command);
-  }
-  if constexpr (!drive) {
-    if (config.rules.carry_limit_m > 0.0 && !memory.taken_m) memory.taken_m = held_ball(input.pose, robot);
-  }
-  PolicyOutput output = row.evaluate(config, robot, goal, input, memory);
-  if constexpr (!drive) {
+  if (drive && pending) return hold(config, goal, Reason::kOrderPending, memory.pending_command());
+  if (!drive && config.rules.carry_limit_m > 0.0 && !memory.taken_m) memory.taken_m = held_ball(input.pose, robot);
+  PolicyOutput output = policy.ask(config, robot, goal, input, memory);
+  if (!drive) {
     if (memory.taken_m) output.drive = within_reach(config, robot, input.pose, memory, output.drive);
     if (!may_shoot(config, robot, input, output)) output.reason = Reason::kOwnHalf;
   }
@@ -93,7 +77,7 @@ PolicyOutput evaluate_row(const PolicyConfig& config, const RobotModel& robot, c
   output.fire = output.reason == Reason::kFire;
   if (!output.fire) return output;
   memory.fired_t_ns = input.t_ns;
-  if constexpr (drive) memory.order(config.test_drive, output.drive);
+  memory.order(config.test_drive, output.drive);
   return output;
 }
 
@@ -103,22 +87,35 @@ Twist turned_twist(const Twist& twist, double angle_rad) {
   return {velocity_mps.x(), velocity_mps.y(), twist.omega_radps};
 }
 
-constexpr std::array kEvaluators = []<std::size_t... kRow>(std::index_sequence<kRow...>) {
-  return std::array{evaluate_row<kRow>...};
-}
-(std::make_index_sequence<kPolicyCount>{});
-
 }  // namespace
 
-PolicyOutput evaluate(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+PolicyMemory::PolicyMemory(PolicyName policy)
+    : policy_(policies()[static_cast<std::size_t>(policy)]), memory_(policy_->new_memory()) {}
+
+PolicyMemory::PolicyMemory(const PolicyMemory& other)
+    : policy_(other.policy_), memory_(other.memory_ ? policy_->copy(*other.memory_) : nullptr) {}
+
+PolicyMemory& PolicyMemory::operator=(const PolicyMemory& other) {
+  if (this != &other) *this = PolicyMemory(other);
+  return *this;
+}
+
+PossessionMemory& PolicyMemory::of(const Policy& policy) {
+  if (!memory_ || !policy.remembers(*memory_)) memory_ = policy.new_memory();
+  policy_ = &policy;
+  return *memory_;
+}
+
+PolicyOutput evaluate(PolicyName name, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                       const PolicyInput& input, PolicyMemory& memory) {
-  const auto& of_policy = kEvaluators[static_cast<std::size_t>(policy)];
-  if (robot.direction_rad == 0.0) return of_policy(config, robot, goal, input, memory);
+  const Policy& policy = *policies()[static_cast<std::size_t>(name)];
+  PossessionMemory& own = memory.of(policy);
+  if (robot.direction_rad == 0.0) return ask(policy, config, robot, goal, input, own);
   // A robot that faces where its ball goes kicks straight; the ball's place in its arms is off by some millimetres.
   PolicyInput turned = input;
   turned.pose.heading_rad += robot.direction_rad;
   turned.twist = turned_twist(input.twist, -robot.direction_rad);
-  PolicyOutput output = of_policy(config, robot, goal, turned, memory);
+  PolicyOutput output = ask(policy, config, robot, goal, turned, own);
   output.drive = turned_twist(output.drive, robot.direction_rad);
   return output;
 }

@@ -2,40 +2,22 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
-#include <type_traits>
-#include <variant>
 #include <vector>
 
 #include "kicking/policy/moving.hpp"
+#include "kicking/policy/policy_interface.hpp"
 #include "kicking/policy/predictive/predictive.hpp"
 #include "kicking/policy/rule.hpp"
 #include "kicking/policy/stopped.hpp"
 #include "kicking/policy/test_drive.hpp"
 
 namespace trivela::kicking {
-
-/// kPlay: aims by the configured laws. kPredictive: weighs probabilities and aims by its own. kDrive: calibrates a
-/// robot and is no policy of play; its memory outlives the possession.
-enum class PolicyKind { kPlay, kPredictive, kDrive };
-
-/// What a policy has to be given besides a robot's own belief: a learned model, or the simulator's true state.
-enum class PolicyNeeds { kNothing, kModel, kTruth };
-
-/// What others need to know of a policy.
-struct PolicyFacts {
-  const char* name;  ///< in files, flags and logs, and the wire's label
-  PolicyKind kind;
-  PolicyNeeds needs = PolicyNeeds::kNothing;
-  bool rides_along = false;  ///< judged as a shadow while another one is in charge; the wire and the log have four
-
-  constexpr bool plays() const { return kind != PolicyKind::kDrive; }
-  constexpr bool needs_truth() const { return needs == PolicyNeeds::kTruth; }
-  constexpr bool needs_model() const { return needs == PolicyNeeds::kModel; }
-};
 
 template <class Memory>
 struct PolicyRow {
@@ -71,7 +53,7 @@ constexpr std::optional<int> row_of(std::string_view name) {
   return std::nullopt;
 }
 
-/// A policy: the place of its row. Those that something singles out have an enumerator; the others need none.
+/// A policy: its place in policies(). Those that something singles out have an enumerator; the others need none.
 enum class PolicyName {
   kStopped = row_of("stopped").value(),
   kMoving = row_of("moving").value(),
@@ -84,57 +66,78 @@ enum class PolicyName {
   kOracle = row_of("oracle").value()
 };
 
-inline constexpr std::array kEveryPolicy = [] {
-  std::array<PolicyName, kPolicyCount> all{};
-  for (std::size_t i = 0; i < kPolicyCount; ++i) all[i] = static_cast<PolicyName>(i);
-  return all;
-}();
-
 inline constexpr std::array kPolicyNames = [] {
   std::array<const char*, kPolicyCount> names{};
   for (std::size_t i = 0; i < kPolicyCount; ++i) names[i] = kPolicyFacts[i].name;
   return names;
 }();
 
-constexpr const PolicyFacts& facts(PolicyName policy) { return kPolicyFacts[static_cast<std::size_t>(policy)]; }
-constexpr const char* name(PolicyName policy) { return facts(policy).name; }
-constexpr std::optional<PolicyName> policy_named(std::string_view name) {
-  if (const auto row = row_of(name)) return static_cast<PolicyName>(*row);
-  return std::nullopt;
-}
+/// Every policy that this program knows: the rows, then those from outside in the order in which they came.
+std::span<const Policy* const> policies();
 
-/// Names of the policies with such facts, in the order of the rows.
+/// Adds a policy from outside, before anything else is read or played. Its place is its PolicyName, behind
+/// kPolicyCount. Throws std::invalid_argument where
+/// - its name is not 1 to 31 of a-z, 0-9 and _ with a letter first, or is taken,
+/// - the keys of its settings are not like that, or stand twice,
+/// - a usual value is not in its range.
+PolicyName register_policy(std::unique_ptr<Policy> policy);
+
+/// Makes known that another program has a policy of this name, with these keys in [policy.own.NAME]. It is in charge
+/// nowhere in this program. Later keys add to those of before. Throws as register_policy() does.
+void declare_policy(const std::string& name, const std::vector<std::string>& keys);
+
+/// The settings of the policies from outside as PolicyConfig::own has them, usual values where `own` has none.
+void complete_own_settings(std::vector<std::vector<double>>& own);
+
+const PolicyFacts& facts(PolicyName policy);
+inline const char* name(PolicyName policy) { return facts(policy).name; }
+inline bool from_outside(PolicyName policy) { return static_cast<std::size_t>(policy) >= kPolicyCount; }
+std::optional<PolicyName> policy_named(std::string_view name);
+
+/// Names of the policies with such facts, in the order of policies().
 std::vector<std::string> policies_where(auto&& fits) {
   std::vector<std::string> names;
-  for (const PolicyFacts& facts : kPolicyFacts)
-    if (fits(facts)) names.emplace_back(facts.name);
+  for (const Policy* policy : policies())
+    if (fits(policy->facts())) names.emplace_back(policy->facts().name);
   return names;
 }
 
-/// A variant of these types, each once.
-template <class Variant, class... Types>
-struct VariantOf {
-  using type = Variant;
-};
-template <class... Held, class First, class... Rest>
-struct VariantOf<std::variant<Held...>, First, Rest...>
-    : VariantOf<
-          std::conditional_t<(std::is_same_v<Held, First> || ...), std::variant<Held...>, std::variant<Held..., First>>,
-          Rest...> {};
-
-template <class... Memory>
-auto memory_of(const std::tuple<PolicyRow<Memory>...>&) -> typename VariantOf<std::variant<>, Memory...>::type;
-
 /// What a policy remembers from cycle to cycle. A new possession starts it afresh, but for a drive's progress; so does
 /// a policy that remembers something else.
-using PolicyMemory = decltype(memory_of(kPolicyRows));
+class PolicyMemory {
+ public:
+  PolicyMemory() = default;
+  /// Made now, so that evaluate() allocates nothing in the first cycle either.
+  explicit PolicyMemory(PolicyName policy);
+  PolicyMemory(const PolicyMemory& other);
+  PolicyMemory& operator=(const PolicyMemory& other);
+  PolicyMemory(PolicyMemory&&) = default;
+  PolicyMemory& operator=(PolicyMemory&&) = default;
+  ~PolicyMemory() = default;
+
+  /// That of the policy, a fresh one where the policy before remembered something else.
+  PossessionMemory& of(const Policy& policy);
+
+  /// nullptr: nothing is remembered yet.
+  PossessionMemory* get() { return memory_.get(); }
+
+  /// Throws std::bad_cast where it is another one.
+  template <class Memory>
+  const Memory& as() const {
+    return dynamic_cast<const Memory&>(*memory_);
+  }
+
+ private:
+  const Policy* policy_ = nullptr;
+  std::unique_ptr<PossessionMemory> memory_;
+};
 
 /// Fire or hold? A pure function of its arguments but for the policy's own memory, which it brings up to date; nothing
-/// allocates. A policy that is not in charge is judged by the same function with a memory of its own. It never fires
-/// when the game stands, the ball is not held, the kicker is not ready, the state is older than max_state_age_s or not
-/// finite, no set-point reaches the target height (but for kStandingDrive, which kicks for the laser, and the
-/// predictive ones, which choose their height: where full power falls short of the line), or an order of this
-/// possession is pending.
+/// allocates but a memory that is made. A policy that is not in charge is judged by the same function with a memory of
+/// its own. It never fires when the game stands, the ball is not held, the kicker is not ready, the state is older than
+/// max_state_age_s or not finite, no set-point reaches the target height (but for kStandingDrive, which kicks for the
+/// laser, and the predictive ones, which choose their height: where full power falls short of the line), or an order of
+/// this possession is pending. A policy of another program: std::logic_error.
 PolicyOutput evaluate(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                       const PolicyInput& input, PolicyMemory& memory);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "kicking/alignment/alignment.hpp"
 #include "kicking/ballistics/height_law.hpp"
@@ -96,6 +97,9 @@ struct PolicyConfig {
   PredictiveConfig predictive{};
 
   TestDriveConfig test_drive{};
+
+  /// Settings of the policies from outside, in the order of their places behind kPolicyCount; usual ones may lack.
+  std::vector<std::vector<double>> own{};
 };
 
 }  // namespace trivela::kicking

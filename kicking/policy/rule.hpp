@@ -149,8 +149,19 @@ struct PossessionMemory {
   std::optional<Eigen::Vector2d> taken_m;  ///< the ball's centre in F when it was first had
   double corner = 0.0;                     ///< that it aims at: -1 left, 1 right, 0 none chosen yet
 
+  PossessionMemory() = default;
+  PossessionMemory(const PossessionMemory&) = default;
+  PossessionMemory& operator=(const PossessionMemory&) = default;
+  virtual ~PossessionMemory() = default;
+
+  /// Looks at every cycle, also while nothing may be decided.
+  virtual void watch(const PolicyConfig&, const PolicyInput&) {}
   /// Nothing may be decided in this cycle.
-  void interrupt() {}
+  virtual void interrupt() {}
+  /// Its order goes out, with this command to the base.
+  virtual void order(const TestDriveConfig&, const Twist&) {}
+  /// Command of a test drive while its order is on its way.
+  virtual Twist pending_command() const { return {}; }
 };
 
 /// What makes a policy: asked in each cycle in which something may be decided. Reason kFire: it would kick now, the

@@ -9,7 +9,7 @@ struct StoppedMemory : PossessionMemory {
   std::optional<std::int64_t> settling_since_t_ns;
 
   /// The phases begin again.
-  void interrupt() {
+  void interrupt() override {
     turning = false;
     settling_since_t_ns.reset();
   }

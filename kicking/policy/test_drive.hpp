@@ -18,18 +18,18 @@ struct DriveMemory : PossessionMemory {
   std::optional<std::int64_t> settling_since_t_ns;
 
   /// A pass or a rest that was interrupted starts over.
-  void interrupt() {
+  void interrupt() override {
     passing = false;
     settling_since_t_ns.reset();
   }
-  /// Its order goes out, with this command to the base.
-  void order(const TestDriveConfig& config, const Twist& drive) {
+  void order(const TestDriveConfig& config, const Twist& drive) override {
     passing = false;
     command = drive;
     if (++kicks < config.kicks_per_level) return;
     kicks = 0;
     ++level;
   }
+  Twist pending_command() const override { return command; }
 };
 
 /// Of a bisection with each entry of the list.
@@ -40,7 +40,7 @@ struct TurnDriveMemory : DriveMemory {
   double late_sum_m = 0.0;                          ///< of this step's balls, beyond the target in the sense of turning
   std::optional<std::uint32_t> awaited_possession;  ///< its kick has not been seen yet, and counts once it is
 
-  void order(const TestDriveConfig&, const Twist& drive) {
+  void order(const TestDriveConfig&, const Twist& drive) override {
     passing = false;
     command = drive;
     awaited_possession = possession_id;

@@ -27,26 +27,12 @@ const std::string& store(SQLite::Database& database, const std::string& text, Di
   return key;
 }
 
-/// schema.sql with the policies that came after its text.
-const std::string& match_schema() {
-  static const std::string text = [] {
-    const std::string schema(kSchemaSql);
-    std::string later;
-    for (const kicking::PolicyFacts& policy : kicking::kPolicyFacts) {
-      const std::string allowed = fmt::format("policy = '{}'", policy.name);
-      if (schema.find(allowed) == std::string::npos) later += " OR " + allowed;
-    }
-    return std::regex_replace(schema, std::regex(" OR policy = 'oracle'"), "$&" + later);
-  }();
-  return text;
-}
-
 /// The view `kicks` of the schema as a view of the connection. It asks the file's own tables, also where a view of the
 /// connection stands before one of them.
 std::string own_kicks() {
   static const std::string head = "CREATE VIEW kicks AS";
   static const std::regex table("(FROM|JOIN) (kick_[a-z]+)");
-  const std::string& schema = match_schema();
+  const std::string schema(kSchemaSql);
   const std::string body = schema.substr(schema.find(head) + head.size());
   return "CREATE TEMP VIEW kicks AS" + std::regex_replace(body, table, "$1 main.$2");
 }
@@ -56,7 +42,7 @@ std::string own_kicks() {
 std::string_view schema_of(const LogKind& kind) {
   if (kind.application_id == kScanRecord.application_id) return kScanSchemaSql;
   if (kind.application_id == kStudyResults.application_id) return kStudySchemaSql;
-  return match_schema();
+  return kSchemaSql;
 }
 
 std::optional<std::string> table_of_message(std::string_view type) {
@@ -93,7 +79,7 @@ void create_reading_views(SQLite::Database& database) {
 void create_tables(SQLite::Database& database) {
   database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kMatchLog.application_id,
                             kMatchLog.version));
-  database.exec(match_schema());
+  database.exec(std::string(kSchemaSql));
   database.exec("ANALYZE");  // its table now, while the schema lies in front: of a file that was cut the schema is read
 }
 

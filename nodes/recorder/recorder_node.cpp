@@ -184,7 +184,7 @@ void RecorderNode::store_beside(const msg::KickDecision& decision, std::int64_t 
   const bool in_play = decision.reason != msg::REASON_NOT_PLAYING;
   if (in_play && state_->assigned.insert({decision.robot_id, decision.half, decision.possession_id}).second) {
     robot::RowCells row;
-    robot::write_assignment(row, decision.robot_id, decision.half, decision.possession_id, bus::label(decision.policy),
+    robot::write_assignment(row, decision.robot_id, decision.half, decision.possession_id, msg::policy_name(decision),
                             decision.assignment_probability, decision.t_ns);
     log_.push(assignments_, std::move(row.cells));
   }

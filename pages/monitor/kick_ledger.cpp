@@ -77,7 +77,7 @@ void KickLedger::hear(const msg::KickDecision& decision, std::int64_t heard_ns) 
   if (kick == nullptr || (kick->decided && kick->decided->seq <= decision.seq)) return;
   kick->decided = KnownKick::Decided{.seq = decision.seq,
                                      .t_ns = decision.t_ns,
-                                     .policy = decision.policy,
+                                     .policy = {decision.policy, decision.own_policy},
                                      .distance_m = decision.distance_m,
                                      .power = decision.power,
                                      .p_on_target = decision.p_on_target,
@@ -100,8 +100,8 @@ void KickLedger::hear(const msg::KickOutcome& outcome, std::int64_t heard_ns) {
   kick->ended = KnownKick::Ended{outcome.seq, outcome.outcome, saved, outcome.x_cross_m, outcome.z_cross_m};
 }
 
-std::map<std::optional<msg::Policy>, KickTally> KickLedger::tallies(const LedgerNow& now) const {
-  std::map<std::optional<msg::Policy>, KickTally> tallies;
+std::map<std::optional<PolicyLabel>, KickTally> KickLedger::tallies(const LedgerNow& now) const {
+  std::map<std::optional<PolicyLabel>, KickTally> tallies;
   for (const KnownKick& kick : kicks_) {
     KickTally& tally = tallies[kick.decided ? std::optional{kick.decided->policy} : std::nullopt];
     switch (fate_of(kick, now)) {

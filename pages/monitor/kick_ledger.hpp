@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "idl/messages.hpp"
@@ -13,12 +15,22 @@ namespace trivela::pages {
 /// What has become of a kick, as Table 2 counts it.
 enum class KickFate { kUnderWay, kRefused, kInside, kOutside, kUnknown };
 
+/// A policy as the bus names it.
+struct PolicyLabel {
+  PolicyLabel(msg::Policy known = msg::POLICY_STOPPED, std::string name = {}) : policy(known), own(std::move(name)) {}
+  auto operator<=>(const PolicyLabel&) const = default;
+  std::string name() const { return policy == msg::POLICY_OWN ? own : msg::label(policy); }
+
+  msg::Policy policy;
+  std::string own;  ///< of another program
+};
+
 /// What was heard of a kick. Each word may be missing: it got lost, is not there yet, or the page was opened later.
 struct KnownKick {
   struct Decided {
     std::uint64_t seq = 0;
     std::int64_t t_ns = 0;
-    msg::Policy policy{};
+    PolicyLabel policy{};
     double distance_m = 0.0;
     kicking::Maybe power;
     kicking::Maybe p_on_target;
@@ -94,7 +106,7 @@ class KickLedger {
   void hear(const msg::KickOutcome& outcome, std::int64_t heard_ns);
 
   /// By policy; under none those whose decision was not heard.
-  std::map<std::optional<msg::Policy>, KickTally> tallies(const LedgerNow& now) const;
+  std::map<std::optional<PolicyLabel>, KickTally> tallies(const LedgerNow& now) const;
 
   /// The latest ones that were heard of, the newest first.
   std::vector<KnownKick> latest(std::size_t most) const;

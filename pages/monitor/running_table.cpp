@@ -15,11 +15,11 @@ RunningDifference difference_of(const RunningRow& older, const RunningRow& newer
 
 }  // namespace
 
-RunningTable running_table(const std::map<std::optional<msg::Policy>, KickTally>& tallies) {
+RunningTable running_table(const std::map<std::optional<PolicyLabel>, KickTally>& tallies) {
   RunningTable table;
   std::optional<RunningRow> nobodys;
   for (const auto& [policy, kicks] : tallies) {
-    RunningRow row{policy ? msg::label(*policy) : "not heard", kicks};
+    RunningRow row{policy ? policy->name() : "not heard", kicks};
     row.interval = stats::confidence_sequence(row.counts());
     if (policy) {
       table.rows.push_back(row);

@@ -36,6 +36,6 @@ struct RunningTable {
 /// With the intervals of evaluator/stats/confidence_sequence.hpp: whoever looks after each kick, and stops when they
 /// like, errs in no more than 5 % of matches. Of the difference that holds however the policy of the next kick
 /// is chosen, as long as nobody chooses it by the situation.
-RunningTable running_table(const std::map<std::optional<msg::Policy>, KickTally>& tallies);
+RunningTable running_table(const std::map<std::optional<PolicyLabel>, KickTally>& tallies);
 
 }  // namespace trivela::pages

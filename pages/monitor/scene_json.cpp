@@ -87,7 +87,7 @@ Json robot_json(std::uint8_t id, const RobotView& robot, std::int64_t now_ns) {
   shown["kicker"] = kicker_json(robot.kicker.within(kFresh_ns, now_ns));
   shown["learned"] = estimate_json(robot.estimate.sample);
   if (const auto* decision = shown_decision(robot, now_ns)) {
-    shown["policy"] = msg::label(decision->policy);
+    shown["policy"] = msg::policy_name(*decision);
     shown["distance"] = number(decision->distance_m);
     shown["power"] = number(decision->power);
     shown["p"] = number(decision->p_on_target);
@@ -127,7 +127,7 @@ const char* name_of(KickFate fate) {
 Json kick_json(const KnownKick& kick, const LedgerNow& now) {
   const KickFate fate = fate_of(kick, now);
   Json shown{{"id", std::to_string(kick.kick_id)}, {"robot", kick.robot_id}, {"fate", name_of(fate)}};
-  shown["policy"] = kick.decided ? Json(msg::label(kick.decided->policy)) : Json(nullptr);
+  shown["policy"] = kick.decided ? Json(kick.decided->policy.name()) : Json(nullptr);
   if (kick.decided) {
     shown["distance"] = number(kick.decided->distance_m);
     shown["power"] = number(kick.decided->power);

@@ -1,10 +1,13 @@
 #include "robot/decision/decider.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
 
+#include "config/text/error.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/in_place.hpp"
 #include "robot/decision/decision_message.hpp"
@@ -43,10 +46,17 @@ Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& mod
       validity_ns_(kicking::nanoseconds(settings.assignment.order_validity_s)),
       robot_id_(robot_id),
       session_(session) {
-  if (!settings.assignment.shadows) return;
-  for (const PolicyName policy : kicking::kEveryPolicy) {
-    if (!facts(policy).rides_along || (facts(policy).needs_model() && !settings.policy.learned)) continue;
-    shadows_.push_back(policy);
+  for (const PolicyName policy : assignment_.candidates()) {
+    if (!facts(policy).needs_program()) continue;
+    throw config::Error{
+        fmt::format("the policy {} is another program's: start that program's decision node", kicking::name(policy))};
+  }
+  memory_.reserve(kicking::policies().size());
+  for (std::size_t place = 0; place < kicking::policies().size(); ++place) {
+    const auto policy = static_cast<PolicyName>(place);
+    memory_.emplace_back(policy);
+    const bool needs_more = facts(policy).needs_model() && !settings.policy.learned;
+    if (settings.assignment.shadows && facts(policy).rides_along && !needs_more) shadows_.push_back(policy);
   }
 }
 
@@ -55,8 +65,7 @@ Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& mod
 void Decider::begin_possession(std::uint8_t half, std::uint32_t possession_id) {
   if (half_ == half && possession_id_ == possession_id) return;
   if (half_ != half) {
-    for (kicking::PolicyMemory& memory : memory_)
-      std::visit([](kicking::PossessionMemory& any) { any.possession_id.reset(); }, memory);
+    for (kicking::PolicyMemory& memory : memory_) memory.get()->possession_id.reset();
   }
   half_ = half;
   possession_id_ = possession_id;
@@ -134,10 +143,7 @@ void Decider::commit() {
   last_fire(decision_.in_charge.policy) = fired_t_ns_;
 }
 
-std::optional<std::int64_t>& Decider::last_fire(PolicyName policy) {
-  return std::visit(
-      [](kicking::PossessionMemory & any) -> auto& { return any.fired_t_ns; }, memory(policy));
-}
+std::optional<std::int64_t>& Decider::last_fire(PolicyName policy) { return memory(policy).get()->fired_t_ns; }
 
 msg::KickDecision Decider::record(const msg::WorldState& world, const msg::KickerStatus* kicker) const {
   msg::KickDecision out = decision_message(world, kicker, decision_.in_charge.policy, decision_.output);

@@ -110,7 +110,7 @@ class Decider {
   std::uint8_t robot_id_;
   std::uint32_t session_;  // of each kick_id
   CycleDecision decision_;
-  std::array<kicking::PolicyMemory, kicking::kPolicyCount> memory_{};
+  std::vector<kicking::PolicyMemory> memory_;  // of each policy
   std::optional<std::uint8_t> half_;
   std::uint32_t possession_id_ = 0;  // of half_
   msg::KickOrder last_order_{};

@@ -1,7 +1,9 @@
 #include "robot/decision/decision_message.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <tuple>
 #include <utility>
@@ -12,7 +14,14 @@
 namespace trivela::robot {
 namespace {
 
-static_assert(bus::has_labels<msg::Policy>(kicking::kPolicyNames));
+/// The names of the wire: those of the rows, and one for all from outside.
+constexpr std::array kWireNames = [] {
+  std::array<const char*, kicking::kPolicyCount + 1> names{};
+  std::ranges::copy(kicking::kPolicyNames, names.begin());
+  names.back() = "own";
+  return names;
+}();
+static_assert(bus::has_labels<msg::Policy>(kWireNames));
 static_assert(bus::has_labels<msg::DecisionReason>(kicking::kReasonNames));
 
 constexpr bool wire(bool value) { return value; }
@@ -49,7 +58,9 @@ void copy_fields(const kicking::PolicyOutput& output, Message& out) {
 
 }  // namespace
 
-msg::Policy to_wire(kicking::PolicyName policy) { return static_cast<msg::Policy>(policy); }
+msg::Policy to_wire(kicking::PolicyName policy) {
+  return from_outside(policy) ? msg::POLICY_OWN : static_cast<msg::Policy>(policy);
+}
 msg::DecisionReason to_wire(kicking::Reason reason) { return static_cast<msg::DecisionReason>(reason); }
 
 kicking::PolicyInput policy_input(const msg::WorldState& world, const msg::KickerStatus* kicker) {
@@ -87,6 +98,7 @@ msg::KickDecision decision_message(const msg::WorldState& world, const msg::Kick
   out.half = world.half;
   out.possession_id = world.possession_id;
   out.policy = to_wire(policy);
+  if (from_outside(policy)) std::strncpy(out.own_policy, name(policy), sizeof out.own_policy - 1);
   copy_fields(output, out);
   out.x_m = world.x_m;
   out.y_m = world.y_m;

@@ -21,12 +21,14 @@ std::string table_of() {
 }
 
 /// Gives the cells of a message in the order of columns_of<T>() to the sink's integer(), number() and text(): enums by
-/// their label, booleans as 0 and 1.
+/// their label, the policy of a decision by its name, booleans as 0 and 1.
 template <bus::Struct T>
 void write_cells(auto& sink, const T& message) {
   bus::visit_values(message, [&](const auto& field) {
     using Field = std::remove_cvref_t<decltype(field)>;
-    if constexpr (bus::Enumeration<Field>) {
+    if constexpr (std::is_same_v<T, msg::KickDecision> && std::is_same_v<Field, msg::Policy>) {
+      sink.text(msg::policy_name(message));
+    } else if constexpr (bus::Enumeration<Field>) {
       sink.text(bus::label(field));
     } else if constexpr (std::is_floating_point_v<Field>) {
       sink.number(static_cast<double>(field));

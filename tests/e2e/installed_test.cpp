@@ -114,6 +114,10 @@ TEST_F(Installed, AnotherProjectFindsAndUsesIt) {
   EXPECT_EQ(kick, output_of("examples/solve_a_kick", {}));
   EXPECT_EQ(output_of(folder_ / "consumer/examples/play_a_match", {}), output_of("examples/play_a_match", {}));
 
+  output_of(folder_ / "consumer/examples/patient",
+            {"simulate", "--arms", "patient,moving", "--matches", "2", "--possessions", "5", "--out", "own.db"});
+  EXPECT_THAT(output_of(program("trivela"), {"compare", "own.db"}), HasSubstr("patient"));
+
   const std::string tag = "consumer-test-" + std::to_string(getpid());
   bus::Writer<msg::KickDecision> writer{bus::Participant{bus::loopback(19, tag)}};
   Program listener{folder_ / "consumer/examples/listen_to_decisions", {"19", tag}, folder_.path()};

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,37 @@ inline std::vector<std::string> other_rows(const tests::Folder& folder, const st
   for (const Row& name : rows_of(a, "SELECT name FROM sqlite_schema WHERE type = 'table' AND name <> 'sqlite_stat1'")) {
     const std::string table = std::get<std::string>(name[0]);
     if (rows_of(a, "SELECT * FROM " + table) != rows_of(b, "SELECT * FROM " + table)) differing.push_back(table);
+  }
+  return differing;
+}
+
+/// The match with the seed of the log's only session on the bus, and the streams in which the two differ.
+inline std::vector<std::string> differing_on_the_bus(
+    const tests::Folder& folder, const std::vector<std::string>& policies, const std::string& program = "trivela",
+    const std::function<void()>& prepare = [] {}) {
+  const Reader in_process{folder / "in.db"};
+  std::vector<std::string> arguments{"match",
+                                     "--minutes",
+                                     "1000",
+                                     "--seed",
+                                     fmt::format("{}", number_of(in_process, "SELECT seed FROM sessions")),
+                                     "--set",
+                                     "simulator.max_possessions=8",
+                                     "--out",
+                                     "bus.db"};
+  arguments.insert(arguments.end(), policies.begin(), policies.end());
+  Program match{program, arguments, folder.path(), prepare};
+  EXPECT_EQ(match.wait(), 0) << match.errors();
+  const Reader bus{folder / "bus.db"};
+  EXPECT_GT(number_of(bus, "SELECT count(*) FROM kick_decisions WHERE reason <> 'not_playing'"), 100);
+  EXPECT_GT(number_of(bus, "SELECT count(*) FROM kick_orders"), 0);
+  std::vector<std::string> differing;
+  for (const std::string& difference : differences_of(in_process, bus)) {
+    for (const char* const stream :
+         {"kick_decisions,", "shadow_decisions,", "kick_orders,", "kick_receipts,", "kick_outcomes,",
+          "kicker_estimates,", "kick_truths,", "possession_truths,", "assignments,"}) {
+      if (difference.starts_with(stream)) differing.push_back(difference);
+    }
   }
   return differing;
 }

@@ -144,34 +144,6 @@ TEST(Simulate, AReportReadsTheExperiment) {
   EXPECT_THAT(report.output(), HasSubstr("moving"));
 }
 
-/// The match with the seed of the log's only session on the bus, and the streams in which the two differ.
-std::vector<std::string> differing_on_the_bus(const tests::Folder& folder, const std::vector<std::string>& policies) {
-  const Reader in_process{folder / "in.db"};
-  std::vector<std::string> arguments{"match",
-                                     "--minutes",
-                                     "1000",
-                                     "--seed",
-                                     fmt::format("{}", number_of(in_process, "SELECT seed FROM sessions")),
-                                     "--set",
-                                     "simulator.max_possessions=8",
-                                     "--out",
-                                     "bus.db"};
-  arguments.insert(arguments.end(), policies.begin(), policies.end());
-  run(folder, arguments);
-  const Reader bus{folder / "bus.db"};
-  EXPECT_GT(number_of(bus, "SELECT count(*) FROM kick_decisions WHERE reason <> 'not_playing'"), 100);
-  EXPECT_GT(number_of(bus, "SELECT count(*) FROM kick_orders"), 0);
-  std::vector<std::string> differing;
-  for (const std::string& difference : differences_of(in_process, bus)) {
-    for (const char* const stream :
-         {"kick_decisions,", "shadow_decisions,", "kick_orders,", "kick_receipts,", "kick_outcomes,",
-          "kicker_estimates,", "kick_truths,", "possession_truths,", "assignments,"}) {
-      if (difference.starts_with(stream)) differing.push_back(difference);
-    }
-  }
-  return differing;
-}
-
 TEST(Simulate, DecidesLikeTheNodesOnTheBus) {
   for (const std::string policy : {"stopped", "moving", "predictive"}) {
     const tests::Folder folder;

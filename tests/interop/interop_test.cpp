@@ -49,7 +49,9 @@ struct Different {
 
   template <class T>
   void operator()(std::string_view, std::string_view, T& value) {
-    if constexpr (std::is_array_v<T>) {
+    if constexpr (std::is_same_v<T, char[32]>) {
+      std::snprintf(value, sizeof value, "own_%d", ++n);
+    } else if constexpr (std::is_array_v<T>) {
       for (auto& element : value) bus::visit_fields(element, *this);
     } else if constexpr (std::is_same_v<T, bool>) {
       value = ++n % 2 == 0;

@@ -27,6 +27,10 @@ struct FieldText {
       out += name + " " + (std::isnan(value) ? "nan" : number) + "\n";
     } else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
       out += name + " " + std::to_string(static_cast<long long>(value)) + "\n";
+    } else if constexpr (std::is_convertible_v<const T&, const char*>) {
+      out += name + " " + static_cast<const char*>(value) + "\n";
+    } else if constexpr (requires { value.c_str(); }) {
+      out += name + " " + value.c_str() + "\n";
     } else if constexpr (requires { std::begin(value); }) {
       int i = 0;
       for (const auto& element : value) add(name + "[" + std::to_string(i++) + "]", element);

@@ -31,12 +31,15 @@ TEST(Allocation, IsCounted) {
 }
 
 void expect_decisions_without_allocation(const RobotModel& robot) {
-  PolicyMemory memory;
+  std::vector<PolicyMemory> memories;
+  for (std::size_t place = 0; place < kPolicyCount; ++place) memories.emplace_back(static_cast<PolicyName>(place));
   PolicyConfig config;
   config.learned.emplace();
   double sum = 0.0;
   const std::size_t before = allocations;
-  for (const PolicyName policy : kEveryPolicy) {
+  for (std::size_t place = 0; place < kPolicyCount; ++place) {
+    const auto policy = static_cast<PolicyName>(place);
+    PolicyMemory& memory = memories[place];
     for (const HeightLaw height : {HeightLaw::kPaper, HeightLaw::kExtendedRange, HeightLaw::kExact}) {
       for (const MotionLaw motion : {MotionLaw::kPaper, MotionLaw::kExact}) {
         for (const AlphaLaw alpha : {AlphaLaw::kPaperLine, AlphaLaw::kPhysical}) {

@@ -19,7 +19,7 @@ PolicyOutput once(const PolicyInput& input, const PolicyConfig& config = {}, con
   return evaluate(kPredictive, config, robot, {}, input, memory);
 }
 
-const PredictiveMemory& own(const PolicyMemory& memory) { return std::get<PredictiveMemory>(memory); }
+const PredictiveMemory& own(const PolicyMemory& memory) { return memory.as<PredictiveMemory>(); }
 
 /// A cycle of a robot that knows its opponent exactly.
 PolicyInput threatened(const Pose& pose, const Twist& twist, double opponent_m, double closing_mps) {

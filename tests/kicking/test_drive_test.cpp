@@ -270,10 +270,7 @@ TEST(TurnDrive, AKickThatWasNotSeenToCrossDoesNotCount) {
   EXPECT_DOUBLE_EQ(drill.possession({0, 1, 0}).fired->beta_rad, 1.25 * first);
 }
 
-DriveMemory& drive_of(PolicyMemory& memory) {
-  if (auto* const turn = std::get_if<TurnDriveMemory>(&memory)) return *turn;
-  return std::get<DriveMemory>(memory);
-}
+DriveMemory& drive_of(PolicyMemory& memory) { return dynamic_cast<DriveMemory&>(*memory.get()); }
 
 class AnyDrive : public testing::TestWithParam<PolicyName> {};
 

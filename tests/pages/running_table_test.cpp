@@ -58,7 +58,7 @@ class WatchedMatch {
     ledger_.hear(
         outcome(1, id, inside ? msg::OUTCOME_ON_TARGET : msg::OUTCOME_WIDE_LEFT, static_cast<std::uint64_t>(id)), id);
   }
-  std::map<std::optional<msg::Policy>, KickTally> tallies() const { return ledger_.tallies({.heard_ns = kicks_}); }
+  std::map<std::optional<PolicyLabel>, KickTally> tallies() const { return ledger_.tallies({.heard_ns = kicks_}); }
 
  private:
   RandomNumbers random_;
@@ -70,7 +70,7 @@ class WatchedMatch {
 /// Tables of the same counts have the same intervals.
 class KnownTables {
  public:
-  const RunningTable& of(const std::map<std::optional<msg::Policy>, KickTally>& tallies) {
+  const RunningTable& of(const std::map<std::optional<PolicyLabel>, KickTally>& tallies) {
     Key key;
     for (const auto& [policy, kicks] : tallies) key.push_back({policy, kicks.inside, kicks.outside});
     auto [known, fresh] = tables_.try_emplace(key);
@@ -79,7 +79,7 @@ class KnownTables {
   }
 
  private:
-  using Key = std::vector<std::tuple<std::optional<msg::Policy>, std::int64_t, std::int64_t>>;
+  using Key = std::vector<std::tuple<std::optional<PolicyLabel>, std::int64_t, std::int64_t>>;
   std::map<Key, RunningTable> tables_;
 };
 

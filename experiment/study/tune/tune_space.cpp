@@ -78,6 +78,21 @@ std::vector<Coordinate> of_predictive() {
           coordinate("policy.keep_off_m", {"1.5", "2.0", "2.5", "3.0", "4.0"})};
 }
 
+/// Seven values of each setting, from its least to its greatest, and the usual one.
+std::vector<Coordinate> of_own(const kicking::Policy& policy) {
+  constexpr int kValues = 7;
+  std::vector<Coordinate> space;
+  for (const kicking::PolicySetting& setting : policy.settings()) {
+    std::set<double> values{setting.usual};
+    for (int i = 0; i < kValues; ++i)
+      values.insert(setting.range.min + (setting.range.max - setting.range.min) * i / (kValues - 1));
+    Coordinate made{fmt::format("policy.own.{}.{}", policy.facts().name, setting.key), {}};
+    for (const double value : values) made.choices.push_back(fmt::format("{} = {:e}", made.name, value));
+    space.push_back(std::move(made));
+  }
+  return space;
+}
+
 std::vector<std::string> keys_of(const std::string& choice) {
   std::vector<std::string> keys;
   std::istringstream lines{choice};
@@ -95,12 +110,15 @@ std::vector<std::string> tuned_policies() {
   std::vector<std::string> names;
   names.reserve(kSpaces.size());
   for (const auto& [policy, space] : kSpaces) names.emplace_back(kicking::name(policy));
+  for (const kicking::Policy* own : kicking::policies().subspan(kicking::kPolicyCount))
+    if (!own->facts().needs_program() && !own->settings().empty()) names.emplace_back(own->facts().name);
   return names;
 }
 
 std::vector<Coordinate> tuned_space(kicking::PolicyName policy) {
   for (const auto& [tuned, space] : kSpaces)
     if (tuned == policy) return space();
+  if (from_outside(policy)) return of_own(*kicking::policies()[static_cast<std::size_t>(policy)]);
   throw std::invalid_argument{fmt::format("{} has no settings to choose", kicking::name(policy))};
 }
 

@@ -22,8 +22,8 @@ struct PredictiveMemory : PossessionMemory {
   /// A lever that has not come to its kind within 2 lever_s + 0.2 s does not come in this possession.
   void watch_lever(const RobotModel& robot, const PolicyInput& input);
 
-  /// What is seen in every cycle, also while nothing may be decided: the opponent, the robot's own twist.
-  void watch(const PolicyConfig& config, const PolicyInput& input);
+  /// The opponent, and the robot's own twist.
+  void watch(const PolicyConfig& config, const PolicyInput& input) override;
 };
 
 /// Fires where the probability of a ball on target, past a tracked keeper of a goal, now is worth more than any later
