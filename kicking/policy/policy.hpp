@@ -10,12 +10,12 @@
 #include <tuple>
 #include <vector>
 
+#include "kicking/policy/drives/test_drive.hpp"
 #include "kicking/policy/moving.hpp"
 #include "kicking/policy/policy_interface.hpp"
 #include "kicking/policy/predictive/predictive.hpp"
 #include "kicking/policy/rule.hpp"
 #include "kicking/policy/stopped.hpp"
-#include "kicking/policy/test_drive.hpp"
 
 namespace trivela::kicking {
 

@@ -7,10 +7,10 @@
 #include "kicking/ballistics/height_law.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/outcome/keeper.hpp"
+#include "kicking/policy/drives/test_drive_config.hpp"
 #include "kicking/policy/learned_model.hpp"
 #include "kicking/policy/match_rules.hpp"
 #include "kicking/policy/predictive/predictive_config.hpp"
-#include "kicking/policy/test_drive_config.hpp"
 
 namespace trivela::kicking {
 

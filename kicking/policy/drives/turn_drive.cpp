@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "kicking/policy/drive.hpp"
+#include "kicking/policy/drives/test_drive.hpp"
 #include "kicking/policy/policy_output.hpp"
-#include "kicking/policy/test_drive.hpp"
 
 namespace trivela::kicking {
 namespace {
