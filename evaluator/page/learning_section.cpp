@@ -49,10 +49,9 @@ std::string course_figure(const PageView& view, const LearnedKicker& kicker, con
   const std::string svg = axes(x, y) + svg_line("zero", kCourseLeft, y.scale.px(0.0), kCourseRight, y.scale.px(0.0)) +
                           svg_polyline(kind + " course band", band) + svg_polyline(kind + " course band", below) +
                           svg_polyline(kind + " course", line);
-  return figure(
-      {fmt::format("learning-{}-{}-{}", course.id, kicker.session_id, kicker.robot_id),
-       fmt::format("robot {}: {} over the kicks", kicker.robot_id, course.name), kCourseHeight, view.simulated},
-      svg, fmt::format("Robot {}. Difference from its file; dotted: 95 % of the estimate.", kicker.robot_id));
+  return figure({fmt::format("learning-{}-{}-{}", course.id, kicker.session_id, kicker.robot_id),
+                 fmt::format("{}: {} over the kicks", kicker.who(), course.name), kCourseHeight, view.simulated},
+                svg, fmt::format("{}: difference from its file; dotted: 95 % of the estimate.", kicker.who()));
 }
 
 std::string with_error_text(const LearnedPart& part, double unit, int digits) {
@@ -67,9 +66,8 @@ std::string steps_table(const LearnedKicker& kicker) {
                     with_error_text(step.speed_ln, 0.01, 1), with_error_text(step.elevation_rad, kDegree_rad, 1),
                     with_error_text(step.direction_rad, kDegree_rad, 1), with_error_text(step.delay_s, 0.001, 0),
                     fmt::format("{:.2f}", step.p_mistaken)});
-  return details(
-      fmt::format("Every update of robot {}", kicker.robot_id),
-      table(fmt::format("Robot {}: the estimate after each kick, with standard errors", kicker.robot_id), rows));
+  return details(fmt::format("Every update of {}", kicker.who()),
+                 table(fmt::format("The estimate of {} after each kick, with standard errors", kicker.who()), rows));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace trivela::evaluator {
 namespace {
 
 constexpr std::int64_t kFewestFlights = 5;  // kicks by which one can say how good an estimate is
+constexpr std::int64_t kLastFlights = 30;   // the first ones were held against spreads that it had yet to learn
 constexpr double kResiduals = 4.0;          // of a flight
 constexpr double kFarthestSquares = 2.0;    // times as far as it says, in squares
 constexpr double kWrongSpeed = 0.05;        // by which a file is wrong enough to say so
@@ -50,6 +51,10 @@ KickerStep step_of(const log::NamedCells& row) {
 
 }  // namespace
 
+std::string LearnedKicker::who() const {
+  return log.empty() ? fmt::format("robot {}", robot_id) : fmt::format("robot {} ({})", robot_id, log);
+}
+
 std::int64_t LearnedKicker::mistaken() const {
   return std::ranges::count_if(steps, [](const KickerStep& step) { return step.p_mistaken > kSaysNothing; });
 }
@@ -57,9 +62,9 @@ std::int64_t LearnedKicker::mistaken() const {
 double LearnedKicker::mean_chi_square() const {
   double sum = 0.0;
   std::int64_t n = 0;
-  for (const KickerStep& step : steps) {
-    if (step.kick_id == 0 || step.p_mistaken > kSaysNothing) continue;
-    sum += step.chi_square;
+  for (auto step = steps.rbegin(); step != steps.rend() && n < kLastFlights; ++step) {
+    if (step->kick_id == 0 || step->p_mistaken > kSaysNothing) continue;
+    sum += step->chi_square;
     ++n;
   }
   return n > 0 ? sum / static_cast<double>(n) : 0.0;
@@ -84,7 +89,7 @@ std::optional<double> LearnedKicker::higher_m() const {
 
 std::vector<std::string> LearnedKicker::sentences() const {
   std::vector<std::string> lines;
-  const auto say = [&](const std::string& text) { lines.push_back(fmt::format("robot {}: {}", robot_id, text)); };
+  const auto say = [&](const std::string& text) { lines.push_back(fmt::format("{}: {}", who(), text)); };
   if (const auto higher = higher_m()) {
     const std::string by = fmt::format("the aim by {:+.2f} m in height, on average", -*higher);
     say(used ? "decisions went by what its kicks show, which moved " + by
@@ -98,17 +103,20 @@ std::vector<std::string> LearnedKicker::sentences() const {
                     100.0 * std::abs(std::expm1(speed.value)), speed.value > 0.0 ? "faster" : "slower"));
   if (mistaken() > 0) say(fmt::format("{} of {} flights said nothing of the kicker", mistaken(), kicks()));
   if (kicks() - mistaken() < kFewestFlights) {
-    say(fmt::format("{} flights are too few to say whether this may be believed", kicks() - mistaken()));
+    const std::int64_t flights = kicks() - mistaken();
+    say(fmt::format("{} to say whether this may be believed", flights == 1
+                                                                  ? std::string{"1 flight is too few"}
+                                                                  : fmt::format("{} flights are too few", flights)));
   } else if (sound()) {
-    say(
-        fmt::format("its flights lie as far from it as it says (mean chi-square {:.1f}, expected {:.0f}): it may be "
-                    "believed",
-                    mean_chi_square(), kResiduals));
+    say(fmt::format(
+        "its last flights lie as far from it as it says (mean chi-square {:.1f}, expected {:.0f}): it may be "
+        "believed",
+        mean_chi_square(), kResiduals));
   } else {
-    say(
-        fmt::format("its flights lie farther from it than it says (mean chi-square {:.1f}, expected {:.0f}): do not "
-                    "believe it; look at the goal camera and the labels",
-                    mean_chi_square(), kResiduals));
+    say(fmt::format(
+        "its last flights lie farther from it than it says (mean chi-square {:.1f}, expected {:.0f}): do not "
+        "believe it; look at the goal camera and the labels",
+        mean_chi_square(), kResiduals));
   }
   return lines;
 }
@@ -119,7 +127,8 @@ std::vector<LearnedKicker> learned_kickers_of(const log::Reader& reader) {
     const auto session_id = row.get<std::int64_t>("session_id");
     const auto robot_id = row.get<int>("robot_id");
     if (kickers.empty() || kickers.back().session_id != session_id || kickers.back().robot_id != robot_id)
-      kickers.push_back({.session_id = session_id, .robot_id = robot_id, .used = row.get<bool>("used"), .steps = {}});
+      kickers.push_back(
+          {.session_id = session_id, .robot_id = robot_id, .used = row.get<bool>("used"), .steps = {}, .log = {}});
     kickers.back().steps.push_back(step_of(row));
   });
   std::erase_if(kickers, [](const LearnedKicker& kicker) { return kicker.kicks() == 0; });

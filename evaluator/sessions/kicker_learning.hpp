@@ -32,10 +32,12 @@ struct LearnedKicker {
   int robot_id = 0;
   bool used = false;  ///< decisions went by it
   std::vector<KickerStep> steps;
+  std::string log{};  ///< its name, where there are several
 
+  std::string who() const;  ///< such as "robot 1 (second.db)"
   std::int64_t kicks() const { return steps.back().kicks; }
   std::int64_t mistaken() const;
-  double mean_chi_square() const;  ///< of the kicks; 4 where the estimate knows how good it is
+  double mean_chi_square() const;  ///< of the last 30 flights; 4 where the estimate knows how good it is
   /// Its flights lie about as far from it as it says: it may be believed. False also for fewer than five kicks.
   bool sound() const;
   std::optional<double> higher_m() const;  ///< mean over the kicks

@@ -154,10 +154,10 @@ ReportPart kickers_part(const Report& report) {
     const LearnedKicker& kicker = report.kickers[i];
     const KickerStep& last = kicker.steps.back();
     const double degree = kicking::radians(1.0);
-    part.table.push_back({shown(kicker.robot_id), shown(kicker.kicks()), with_error(last.speed_ln, 0.01, 1),
-                          with_error(last.elevation_rad, degree, 1), with_error(last.direction_rad, degree, 1),
-                          with_error(last.delay_s, 0.001, 0), with_error(last.along, 1.0, 2),
-                          with_error(last.sideways, 1.0, 2)});
+    part.table.push_back({kicker.log.empty() ? shown(kicker.robot_id) : kicker.who(), shown(kicker.kicks()),
+                          with_error(last.speed_ln, 0.01, 1), with_error(last.elevation_rad, degree, 1),
+                          with_error(last.direction_rad, degree, 1), with_error(last.delay_s, 0.001, 0),
+                          with_error(last.along, 1.0, 2), with_error(last.sideways, 1.0, 2)});
     const auto sentences = kicker.sentences();
     part.notes.insert(part.notes.end(), sentences.begin(), sentences.end());
   }

@@ -78,12 +78,16 @@ void add_refused_orders(std::vector<RefusedOrders>& refused, const log::Reader& 
                });
 }
 
-// Each session of an experiment begins with the robot's file, and is not named.
-void add_kickers(Report& report, const log::Reader& reader, const std::set<std::int64_t>& own) {
+// Each session of an experiment begins with the robot's file, and is left out. `log`: its name, where there are
+// several.
+void add_kickers(Report& report, const log::Reader& reader, const std::set<std::int64_t>& own, const std::string& log) {
   std::set<std::int64_t> alone;
   for (const log::RecordedSession& session : reader.sessions())
     if (!session.arm && own.contains(session.session_id)) alone.insert(session.session_id);
-  if (!alone.empty()) append(report.kickers, learned_kickers_of(reader), alone);
+  if (alone.empty()) return;
+  std::vector<LearnedKicker> kickers = learned_kickers_of(reader);
+  for (LearnedKicker& kicker : kickers) kicker.log = log;
+  append(report.kickers, kickers, alone);
 }
 
 // Adds everything but tables and lengths. `named`: several logs, whose sentences name them.
@@ -99,7 +103,7 @@ void add_log(Report& report, std::map<std::string, log::Loss>& losses, const Ope
   add_losses(losses, reader, own);
   add_refused_orders(report.refused_orders, reader);
   append(report.notes, session_notes(reader), own);
-  add_kickers(report, reader, own);
+  add_kickers(report, reader, own, named ? log.name : "");
   report.hand_labels.add(hand_labels_of(reader, own));
   const LabelQuality labels = label_quality_of(reader);
   report.labels.add(labels);

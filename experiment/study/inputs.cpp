@@ -112,7 +112,7 @@ bool is_setting(std::string_view key) { return key.starts_with(kSection); }
 
 bool in_force(const sim::Scenario& scenario, const UncertainInput& input) {
   const std::string& key = input.key;
-  if (key.starts_with("keeper.")) return scenario.keeper.enabled;
+  if (key.starts_with("keeper.") || key.starts_with("policy.keeper.")) return scenario.keeper.enabled;
   return !key.starts_with("defenders.") || scenario.defenders.count > 0.0;
 }
 

@@ -12,14 +12,15 @@
 namespace trivela::robot {
 namespace {
 
-constexpr double kReleaseDoubt_s = 0.04;   // until then the ball may be in the handler still
-constexpr double kLatestRelease_s = 0.25;  // after the expected one: of a robot whose delay nobody measured
-constexpr double kLateRelease = 0.05;      // how often, before anything is seen, the ball leaves as late as that
-constexpr double kCarried_mps = 2.5;       // as fast as a robot carries the ball, along either axis
+constexpr double kReleaseDoubt_s = 0.04;  // until then the ball may be in the handler still
+constexpr double kLatestRelease_s = 0.4;  // after the expected one: a delay of 0.25 s that nobody measured, +- 0.06 s
+constexpr double kLateRelease = 0.05;     // how often, before anything is seen, the ball leaves as late as that
+constexpr double kCarried_mps = 2.5;      // as fast as a robot carries the ball, along either axis
 constexpr std::size_t kFewestInFlight = 3;
 constexpr double kOnFloorBelow_m = 0.25;  // a ball that never was higher rolls
 constexpr double kNoise_sd = 4.0;         // a sighting so far off is not noise
 constexpr double kLowClimb_mps = 1.65;    // which rises as high as that
+constexpr double kUsualClimb_mps = 4.0;   // where the expected one is not known
 constexpr double kMostMisfit = 30.0;      // squared, of one sighting: more is a false detection
 constexpr double kTurnKeeps = 0.2;        // of the speed over ground, on average over where the body is hit ...
 constexpr double kTurnSd = 0.5;           // ... and its spread along either axis, in speeds of the ball
@@ -33,11 +34,21 @@ double log_density(const std::array<double, 3>& misfit, double log_variance) {
   return -0.5 * (square + log_variance) - std::log(2.0 * std::numbers::pi);
 }
 
+/// ln of the normal density of one number, whose squared distance from the mean is `square` variances.
+double log_density_of_one(double square, double variance) {
+  return -0.5 * (std::min(square, kMostMisfit) + std::log(2.0 * std::numbers::pi * variance));
+}
+
 bool is_low(const kicking::Sighting& sighting) { return sighting.ball_m.z() < kOnFloorBelow_m; }
 
 /// A kick that was not expected to rise over kOnFloorBelow_m.
 bool kicked_low(const ShotTrack& track) {
   return track.expected_climb_mps && *track.expected_climb_mps < kLowClimb_mps;
+}
+
+/// Heights tell when a lob left the floor, as long as that is open.
+bool height_tells(const ShotTrack& track, const kicking::Sighting& sighting) {
+  return !kicked_low(track) && kicking::seconds(sighting.t_ns - track.release_t_ns) <= kLatestRelease_s;
 }
 
 FlightFilter::Way way_of(const ShotTrack& track, std::span<const kicking::Sighting> seen) {
@@ -109,9 +120,8 @@ class Hypotheses {
 
   /// ln of the likelihood of all sightings but the first, by the best of the hypotheses that tell() gave.
   double log_likelihood(const FlightHypotheses& told) const {
-    return log_free_.back() + std::max(log_untouched(told), log_turned(told));
+    return log_height_ + log_free_.back() + std::max(log_untouched(told), log_turned(told));
   }
-  static bool is_turned(const FlightHypotheses& told) { return log_turned(told) > log_untouched(told); }
 
  private:
   static constexpr double kFar_s = 10.0;
@@ -134,7 +144,7 @@ class Hypotheses {
     to_goal.normalize();
     const double v = track_.expected_speed_mps;
     const double flown_s = kicking::seconds(seen_[0].t_ns - launch_t_ns_);
-    const double climb = track_.expected_climb_mps.value_or(4.0) - kicking::kGravity_mps2 * flown_s;
+    const double climb = track_.expected_climb_mps.value_or(kUsualClimb_mps) - kicking::kGravity_mps2 * flown_s;
     const double sd_climb = track_.expected_climb_mps ? 0.1 * *track_.expected_climb_mps + 0.3 : 5.0;
     // The robot's own speed, and where it aims. A lob that never left the floor was no kick as expected.
     const double sd = way_ == FlightFilter::Way::kRolls ? v + 1.0 : 0.1 * v + 1.2;
@@ -151,7 +161,9 @@ class Hypotheses {
       if (ball.y().p_m + 1.05 * dt_s * ball.y().v_mps > goal_y_m_) crossing_ = meets_plane(ball, t_s, goal_y_m_, dt_s);
       if (crossing_) return;
       ball.advance(dt_s);
+      const double height_m2 = ball.z().var_p_m2 + track_.ball_sd_m * track_.ball_sd_m;
       const auto misfit = ball.correct(seen_[before_line_].ball_m, track_.ball_sd_m);
+      if (height_tells(track_, seen_[before_line_])) log_height_ += log_density_of_one(misfit[2], height_m2);
       squares_ += misfit[0] + misfit[1] + misfit[2];
       misfit_.push_back(std::min(misfit[0] + misfit[1], kMostMisfit));
       log_free_.push_back(log_free_.back() + log_density(misfit, ball.log_variance()));
@@ -219,28 +231,37 @@ class Hypotheses {
   std::vector<FlightFilter> free_;  // after each sighting before the line
   std::vector<double> misfit_;
   std::vector<double> log_free_;  // of all sightings up to this one
+  double log_height_ = 0.0;       // of those whose height tells of the release
   double squares_ = 0.0;
   std::size_t before_line_ = 0;  // how many sightings are
   std::optional<PlaneCrossing> crossing_;
 };
 
-/// ln of the density of a sighting `dt_s` after another one, about which the ball was moved by N(0, sd^2) an axis.
-double log_moved(const kicking::Sighting& from, const kicking::Sighting& to, double sd_mps, double ball_sd_m) {
-  const double dt_s = kicking::seconds(to.t_ns - from.t_ns);
-  const double var_m2 = std::pow(sd_mps * dt_s, 2) + 2.0 * ball_sd_m * ball_sd_m;
+/// ln of the density of a sighting after another one: meanwhile the ball was moved over ground by N(0, sd^2) an axis,
+/// and rose from the floor with `climb_mps` for half of the time, more or less.
+double log_moved(const ShotTrack& track, const kicking::Sighting& from, const kicking::Sighting& to, double sd_mps,
+                 double climb_mps) {
+  const double dt_s = kicking::seconds(to.t_ns - from.t_ns), noise_m2 = track.ball_sd_m * track.ball_sd_m;
+  const double var_m2 = std::pow(sd_mps * dt_s, 2) + 2.0 * noise_m2;
   const double square = (to.ball_m - from.ball_m).head<2>().squaredNorm() / var_m2;
-  return log_density({square, 0.0, 0.0}, 2.0 * std::log(var_m2));
+  const double log_over_ground = log_density({square, 0.0, 0.0}, 2.0 * std::log(var_m2));
+  if (!height_tells(track, to)) return log_over_ground;
+  const double rose_m = 0.5 * climb_mps * dt_s, height_m2 = noise_m2 + rose_m * rose_m;
+  const double above_m = to.ball_m.z() - kicking::Ball{}.radius_m - rose_m;
+  return log_over_ground + log_density_of_one(above_m * above_m / height_m2, height_m2);
 }
 
 /// How many of the first sightings may show the ball in the handler still: on the floor, and no faster than a robot.
 std::size_t held_at_first(const ShotTrack& track, std::span<const kicking::Sighting> seen) {
+  const double below_m = std::max(kOnFloorBelow_m, kicking::Ball{}.radius_m + kNoise_sd * track.ball_sd_m);
+  const double noise_m = kNoise_sd * std::numbers::sqrt2 * track.ball_sd_m;
   std::size_t held = 0;
-  for (; held < seen.size() && is_low(seen[held]); ++held) {
+  for (; held < seen.size() && seen[held].ball_m.z() < below_m; ++held) {
     if (kicking::seconds(seen[held].t_ns - track.release_t_ns) > kLatestRelease_s) break;
     if (held == 0) continue;
     const double dt_s = kicking::seconds(seen[held].t_ns - seen[held - 1].t_ns);
     const double moved_m = (seen[held].ball_m - seen[held - 1].ball_m).head<2>().norm();
-    if (moved_m > kCarried_mps * dt_s + 4.0 * track.ball_sd_m) break;
+    if (moved_m > kCarried_mps * dt_s + noise_m) break;
   }
   return kicked_low(track) || !std::ranges::all_of(seen, is_low) ? held : 0;
 }
@@ -255,19 +276,19 @@ std::optional<FlightHypotheses> flight_hypotheses(const ShotTrack& track, double
   if (seen.size() < kFewestInFlight) return std::nullopt;
   Hypotheses expected{track, seen, goal_y_m, track.release_t_ns};
   FlightHypotheses best = expected.tell();
-  if (!Hypotheses::is_turned(best)) return best;
   double log_best = expected.log_likelihood(best), log_held = std::log(kLateRelease);
   // The robot's file may have a delay that is too short: the ball then leaves after some sightings.
   const std::size_t held = held_at_first(track, seen);
   for (std::size_t first = 1; first <= held && seen.size() - first >= kFewestInFlight; ++first) {
-    const double leaves = log_moved(seen[first - 1], seen[first], 0.6 * track.expected_speed_mps, track.ball_sd_m);
+    const double leaves = log_moved(track, seen[first - 1], seen[first], 0.6 * track.expected_speed_mps,
+                                    track.expected_climb_mps.value_or(kUsualClimb_mps));
     Hypotheses late{track, seen.subspan(first), goal_y_m, std::midpoint(seen[first - 1].t_ns, seen[first].t_ns)};
     FlightHypotheses told = late.tell();
     if (const double log_all = log_held + leaves + late.log_likelihood(told); log_all > log_best) {
       log_best = log_all;
       best = std::move(told);
     }
-    log_held += log_moved(seen[first - 1], seen[first], kCarried_mps, track.ball_sd_m);
+    log_held += log_moved(track, seen[first - 1], seen[first], kCarried_mps, 0.0);
   }
   return best;
 }

@@ -153,8 +153,8 @@ std::vector<OneRobot> uncalibrated(const Plan& plan, std::vector<config::Robot>&
   return robots;
 }
 
-/// Kicks after a fall of 5 % until half of it is corrected, at the median.
-void jumps(const Plan& plan, const std::vector<config::Robot>& files) {
+/// Kicks after a fall of 5 % until `share` of it is corrected.
+void jumps(const Plan& plan, const std::vector<config::Robot>& files, double share) {
   constexpr std::uint32_t kAfter = 20;
   std::vector<double> after;
   int never = 0;
@@ -181,7 +181,7 @@ void jumps(const Plan& plan, const std::vector<config::Robot>& files) {
         if (estimate.kick_id == 0) continue;
         const std::size_t kick = place.at(estimate.kick_id);
         if (kick < kAfter) before = estimate.speed_ln;
-        if (kick < kAfter || found || estimate.speed_ln > before + 0.5 * std::log(0.95)) continue;
+        if (kick < kAfter || found || estimate.speed_ln > before + share * std::log(0.95)) continue;
         after.push_back(static_cast<double>(kick - kAfter + 1));
         found = true;
       }
@@ -191,9 +191,9 @@ void jumps(const Plan& plan, const std::vector<config::Robot>& files) {
   if (after.empty()) return;
   std::ranges::sort(after);
   fmt::print(
-      "\na fall of 5 % after {} kicks: half of it corrected {:.0f} kicks later at the median, {:.0f} at the 90 % "
+      "\na fall of 5 % after {} kicks: {:.0f} % of it corrected {:.0f} kicks later at the median, {:.0f} at the 90 % "
       "point; never in {} of {} matches\n",
-      kAfter, after[after.size() / 2], after[after.size() * 9 / 10], never,
+      kAfter, 100.0 * share, after[after.size() / 2], after[after.size() * 9 / 10], never,
       after.size() + static_cast<std::size_t>(never));
 }
 
@@ -237,5 +237,5 @@ int main(int argc, char** argv) {
           [&](const OneRobot&, int robot) { return measured[static_cast<std::size_t>(robot)]; }},
          {"predictive", predictive, SelfCalibrationMode::kOff},
          {"predictive, learns", predictive, SelfCalibrationMode::kOn}});
-  jumps(plan, files);
+  for (const double share : {0.5, 0.8}) jumps(plan, files, share);
 }

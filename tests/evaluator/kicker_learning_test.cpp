@@ -59,7 +59,7 @@ TEST_F(KickerLearningOfALog, OfFewKicksItSaysThatTheyAreTooFew) {
   estimate(match.kick(1, "on_target"), 0.05);
   const auto kickers = read();
   EXPECT_FALSE(kickers.at(0).sound());
-  EXPECT_THAT(kickers[0].sentences(), ElementsAre(HasSubstr("1 flights are too few to say")));
+  EXPECT_THAT(kickers[0].sentences(), ElementsAre(HasSubstr("1 flight is too few to say")));
 }
 
 TEST_F(KickerLearningOfALog, BelievesFlightsThatLieWhereItSays) {
@@ -86,6 +86,15 @@ TEST_F(KickerLearningOfALog, DoesNotBelieveFlightsThatLieFartherThanItSays) {
   EXPECT_THAT(kickers[0].sentences().back(), HasSubstr("do not believe it"));
 }
 
+TEST_F(KickerLearningOfALog, ItsLastThirtyFlightsSayWhetherToBelieveIt) {
+  estimate(0, 0.0);
+  for (int i = 0; i < 10; ++i) estimate(match.kick(1, "on_target"), 0.05, 40.0);
+  for (int i = 0; i < 30; ++i) estimate(match.kick(1, "on_target"), 0.05, 5.0);
+  const auto kickers = read();
+  EXPECT_DOUBLE_EQ(kickers.at(0).mean_chi_square(), 5.0);
+  EXPECT_TRUE(kickers[0].sound());
+}
+
 TEST_F(KickerLearningOfALog, DoesNotBelieveWhereMostFlightsSayNothing) {
   estimate(0, 0.0);
   for (int i = 0; i < 12; ++i) estimate(match.kick(1, "on_target"), 0.05, 3.0, i % 2 == 0 ? 0.99 : 0.0);
@@ -104,6 +113,23 @@ TEST_F(KickerLearningOfALog, TheReportHasItAsTextAndJson) {
   EXPECT_THAT(to_text(report), HasSubstr("What kicks show of the kickers"));
   EXPECT_THAT(to_text(report), HasSubstr("+9.5 (2.0)"));
   EXPECT_THAT(to_json(report), HasSubstr("\"mean_chi_square\": 4.0"));
+}
+
+TEST_F(KickerLearningOfALog, OfSeveralLogsEachKickerHasItsLogsName) {
+  estimate(0, 0.0);
+  for (int i = 0; i < 6; ++i) estimate(match.kick(1, "on_target"), 0.095);
+  match.close();
+  log::Session another = session();
+  another.uuid = "00000002-0000-4000-8000-000000000001";
+  another.seed = 8;
+  MatchLog second(path("second.db"), another, options());
+  second.kick(1, "over");
+  second.close();
+  log::Reader of_first(path()), of_second(path("second.db"));
+  const OpenLog logs[] = {{&of_first, "first.db"}, {&of_second, "second.db"}};
+  const std::string text = to_text(make_report(logs));
+  EXPECT_THAT(text, HasSubstr("  robot 1 (first.db)           6 "));
+  EXPECT_THAT(text, HasSubstr("robot 1 (first.db): warning: the ball is 10 % faster"));
 }
 
 TEST_F(KickerLearningOfALog, ALogWithoutEstimatesHasNone) {

@@ -106,11 +106,13 @@ TEST(UncertainInputs, OfAKeeperOrDefendersPlayWhereThereAreSome) {
   };
   sim::Scenario scenario;
   EXPECT_EQ(in_force_now(scenario, "keeper."), 0);
+  EXPECT_EQ(in_force_now(scenario, "policy.keeper."), 0);
   EXPECT_EQ(in_force_now(scenario, "defenders."), 0);
   EXPECT_GT(in_force_now(scenario, "kicker."), 5);
   scenario.keeper.enabled = true;
   scenario.defenders.count = 1.0;
   EXPECT_GT(in_force_now(scenario, "keeper."), 5);
+  EXPECT_GT(in_force_now(scenario, "policy.keeper."), 5);
   EXPECT_GT(in_force_now(scenario, "defenders."), 5);
 }
 
