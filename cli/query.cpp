@@ -9,7 +9,6 @@
 #include "cli/options/open_file.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/counting/log_opportunities.hpp"
 #include "evaluator/counting/metrics.hpp"
 #include "evaluator/render/escaped_text.hpp"
 #include "evaluator/render/text_table.hpp"
@@ -80,13 +79,11 @@ std::string question(const QueryArguments& arguments) {
 
 void print_rows(log::Reader& reader, const QueryArguments& arguments) {
   const std::string asked = question(arguments);
-  // As report counts: what several sessions recorded of one play, and what a merge holds twice, counts once.
-  if (asked.find("counted_kicks") != std::string::npos) evaluator::read_opportunities(reader, arguments.log, false);
   std::vector<std::vector<std::string>> rows;  // of a text alone: its columns are as wide as their widest cell
   std::vector<std::string> names;
   std::size_t count = 0;
-  reader.ask(
-      asked,
+  evaluator::ask_counted(
+      reader, arguments.log, asked,
       [&](const std::vector<std::string>& columns) {
         names = columns;
         const std::vector<LogCell> head(names.begin(), names.end());

@@ -100,10 +100,7 @@ void append_keys(const toml::table& table, const std::string& section, std::vect
   }
 }
 
-}  // namespace
-
-std::vector<ArmFields> load_arms(const std::filesystem::path& path) {
-  const TomlSource source = parse_file(path);
+std::vector<ArmFields> read_arms(const TomlSource& source) {
   std::vector<ArmFields> arms;
   for (const auto& [key, node] : source.root) {
     if (key != "arm" || !node.is_array()) {
@@ -120,6 +117,14 @@ std::vector<ArmFields> load_arms(const std::filesystem::path& path) {
   }
   if (arms.empty()) throw Error{fmt::format("{}: no [[arm]]", source.file)};
   return arms;
+}
+
+}  // namespace
+
+std::vector<ArmFields> load_arms(const std::filesystem::path& path) { return read_arms(parse_file(path)); }
+
+std::vector<ArmFields> parse_arms(const std::string& text, const std::string& name) {
+  return read_arms(parse_text(text, name));
 }
 
 std::vector<std::string> override_setting(Settings& settings, const SettingLine& line) {

@@ -34,6 +34,9 @@ struct ArmFields {
 /// an arm with both `policy` and `random`.
 std::vector<ArmFields> load_arms(const std::filesystem::path& path);
 
+/// The same of a text, which sentences call `name`; its files are relative to the folder where the program runs.
+std::vector<ArmFields> parse_arms(const std::string& text, const std::string& name);
+
 /// Overrides settings by the line; returns the keys that it names, e.g. "policy.predictive.threshold". Throws Error
 /// that begins with the line's place.
 std::vector<std::string> override_setting(Settings& settings, const SettingLine& line);

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -12,8 +10,7 @@
 #include "cli/options/open_file.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/compare/policy_comparison.hpp"
-#include "evaluator/counting/log_kicks.hpp"
+#include "evaluator/compare/asked_comparison.hpp"
 #include "evaluator/render/gate.hpp"
 #include "evaluator/render/json_values.hpp"
 
@@ -68,59 +65,34 @@ void check(const CompareArguments& arguments) {
   }
 }
 
-evaluator::LogKicks options_of(const CompareArguments& arguments) {
-  return {.by = arguments.by,
-          .stratify = arguments.stratify,
-          .truth = arguments.outcome == "truth",
-          .blocked_apart = arguments.blocked == "apart"};
-}
-
-evaluator::KickDataset dataset_of(const evaluator::LoggedOpportunities& logged, const CompareArguments& arguments,
-                                  std::string& by) try {
-  return evaluator::kick_dataset_of(logged, options_of(arguments), by);
-} catch (const evaluator::BadOption& error) {
-  throw std::runtime_error(fmt::format("--{}", error.what()));
-}
-
-/// With its baseline and its design as they were asked for.
-evaluator::PolicyComparison compared(evaluator::KickDataset dataset, const std::string& by,
-                                     const CompareArguments& arguments) {
-  if (arguments.stratify == by) {
-    throw UsageError(fmt::format("--stratify {}: within one {} there is nothing to compare", by, by));
-  }
-  if (!arguments.baseline.empty() && !evaluator::put_first(dataset, arguments.baseline)) {
-    throw UsageError(fmt::format("--baseline '{}': there is no such {} ({})", arguments.baseline, by,
-                                 fmt::join(dataset.groups, ", ")));
-  }
-  if (!arguments.design.empty()) {
-    dataset.design = *evaluator::design_of(arguments.design);
-    dataset.design_reason = "as --design says";
-  }
-  return evaluator::compare_policies(std::move(dataset), by, 0.01 * arguments.smallest_effect_points);
+evaluator::ComparisonQuestion question_of(const CompareArguments& arguments) {
+  return {.kicks = {.by = arguments.by,
+                    .stratify = arguments.stratify,
+                    .truth = arguments.outcome == "truth",
+                    .blocked_apart = arguments.blocked == "apart"},
+          .baseline = arguments.baseline,
+          .design = arguments.design,
+          .smallest_effect = 0.01 * arguments.smallest_effect_points};
 }
 
 evaluator::PolicyComparison compared_csv(const CompareArguments& arguments) {
   evaluator::KickDataset dataset = read_csv(arguments);
   try {
-    return compared(std::move(dataset), arguments.by.empty() ? "policy" : arguments.by, arguments);
+    return evaluator::compare_dataset(std::move(dataset), arguments.by.empty() ? "policy" : arguments.by,
+                                      question_of(arguments));
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", csv_name(arguments), error.what()));  // it knows no file
   }
 }
 
-evaluator::PolicyComparison compared_logs(const CompareArguments& arguments) {
-  const std::vector<std::filesystem::path> logs(arguments.logs.begin(), arguments.logs.end());
-  const auto options = options_of(arguments);
-  const auto logged = evaluator::read_opportunities(logs, options.truth);
-  std::string by;
-  auto comparison = compared(dataset_of(logged, arguments, by), by, arguments);
-  comparison.logs = arguments.logs;
-  if (logs.size() > 1) comparison.differences = evaluator::log_differences(logs);
-  if (logs.size() != 2 || (by != "policy" && by != "arm")) return comparison;
-  std::vector<std::string> groups;
-  for (const evaluator::GroupResult& group : comparison.groups) groups.push_back(group.name);
-  comparison.between = evaluator::between_logs(logged, groups, by, options, comparison.smallest_effect);
-  return comparison;
+/// Of logs, or of a table of kicks.
+evaluator::PolicyComparison compared(const CompareArguments& arguments) try {
+  if (arguments.logs.empty()) return compared_csv(arguments);
+  return evaluator::compare_logs({arguments.logs.begin(), arguments.logs.end()}, question_of(arguments));
+} catch (const evaluator::BadChoice& error) {
+  throw UsageError(fmt::format("--{}", error.what()));
+} catch (const evaluator::BadOption& error) {
+  throw std::runtime_error(fmt::format("--{}", error.what()));
 }
 
 void write_out(const std::string& out, const std::string& text) { out.empty() ? say(text) : write_file(out, text); }
@@ -139,9 +111,7 @@ bool run_comparison(const CompareArguments& arguments) {
   check(arguments);
   const auto gates = parse_gates(arguments.gates, evaluator::comparison_gate_metrics());
   require_writable("--out", arguments.out);
-  if (arguments.counts.empty())
-    return write_comparison(arguments, arguments.logs.empty() ? compared_csv(arguments) : compared_logs(arguments),
-                            gates);
+  if (arguments.counts.empty()) return write_comparison(arguments, compared(arguments), gates);
   const auto [older, newer] = parse_two_counts(arguments.counts);
   return write_comparison(arguments, evaluator::compare(older, newer, 0.01 * arguments.smallest_effect_points), gates);
 }

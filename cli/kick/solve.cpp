@@ -3,9 +3,8 @@
 #include "cli/kick/row_verbs.hpp"
 #include "config/robot.hpp"
 #include "evaluator/story/kick_picture.hpp"
-#include "kicking/ballistics/crossing.hpp"
 #include "kicking/ballistics/drag.hpp"
-#include "kicking/ballistics/moving_kick.hpp"
+#include "kicking/ballistics/kick_speeds.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -31,35 +30,22 @@ Value drag_speed(const Row& row, const kicking::FlightPoint& point, double angle
                                                          constants.gravity_mps2));
 }
 
-/// What a row asks for.
-struct Wanted {
-  double angle_rad;
-  kicking::FlightPoint point;
-  double v_front_mps, transfer;
-  double gravity_mps2;
-
-  double u_mps() const { return v_front_mps * transfer; }
-  std::optional<double> vk_exact_mps() const {
-    return kicking::moving_kick_exact(point, angle_rad, u_mps(), gravity_mps2);
-  }
-};
-
-Wanted wanted(const Row& row, const FlightConstants& constants) {
-  return {row.acute_angle_rad("theta_deg"),
-          {row.positive("d_m"), row.number("h_rel_m")},
-          row.number_if_any("v_front_mps").value_or(0.0),
-          row.word("k_transfer") ? row.number_in("k_transfer", 0.0, 10.0) : 1.0,
-          constants.gravity_mps2};
+kicking::WantedKick wanted(const Row& row, const FlightConstants& constants) {
+  return {.point = {row.positive("d_m"), row.number("h_rel_m")},
+          .exit_angle = row.acute_angle_rad("theta_deg"),
+          .v_front_mps = row.number_if_any("v_front_mps").value_or(0.0),
+          .transfer = row.word("k_transfer") ? row.number_in("k_transfer", 0.0, 10.0) : 1.0,
+          .gravity_mps2 = constants.gravity_mps2};
 }
 
 /// The robot faces the goal's middle; the ball leaves at once.
 std::string draw(const Row& row, const FlightConstants& constants) {
-  const Wanted want = wanted(row, constants);
-  const auto vk = want.vk_exact_mps();
+  const kicking::WantedKick want = wanted(row, constants);
+  const kicking::Maybe vk = kicking::kick_speeds(want).vk_exact_mps;
   if (!vk) throw std::runtime_error("--svg: no speed solves this kick, there is nothing to draw");
   evaluator::KickPicture picture{.twist = {0.0, want.v_front_mps, 0.0},
                                  .kick = {.v_kick_mps = *vk,
-                                          .exit_angle = want.angle_rad,
+                                          .exit_angle = want.exit_angle,
                                           .transfer = {want.transfer, want.transfer, want.transfer}},
                                  .ball = constants.ball,
                                  .gravity_mps2 = constants.gravity_mps2};
@@ -90,16 +76,14 @@ RowVerb solve_verb(const FlightConstants& constants, const std::optional<kicking
     return columns;
   };
   verb.compute = [constants, table](const Row& row) {
-    const Wanted want = wanted(row, constants);
-    const auto v0 = kicking::crossing_speed(want.point, want.angle_rad, constants.gravity_mps2);
-    const auto vk_exact = want.vk_exact_mps();
-    std::vector<Value> values(3);
-    if (v0) values = {*v0, value_or_none(vk_exact), kicking::moving_kick_paper(*v0, want.u_mps(), want.angle_rad)};
-    values.emplace_back(v0.has_value());
-    values.push_back(v0 ? Value(kicking::descends_through(want.point, want.angle_rad)) : Value());
-    if (row.has("Cd")) values.push_back(drag_speed(row, want.point, want.angle_rad, constants));
+    const kicking::WantedKick want = wanted(row, constants);
+    const kicking::KickSpeeds speeds = kicking::kick_speeds(want);
+    std::vector<Value> values{value_or_none(speeds.v0_mps), value_or_none(speeds.vk_exact_mps),
+                              value_or_none(speeds.vk_paper_mps), speeds.v0_mps.has_value()};
+    values.push_back(speeds.v0_mps ? Value(speeds.descending) : Value());
+    if (row.has("Cd")) values.push_back(drag_speed(row, want.point, want.exit_angle.angle_rad, constants));
     if (table) {
-      const auto reading = vk_exact ? std::optional(table->power_for(*vk_exact)) : std::nullopt;
+      const auto reading = speeds.vk_exact_mps ? std::optional(table->power_for(*speeds.vk_exact_mps)) : std::nullopt;
       values.push_back(reading ? Value(reading->power) : Value());
       values.push_back(reading ? Value(name(reading->range)) : Value());
     }

@@ -28,13 +28,10 @@ experiment::StudyPlayed Study::played(const sim::Scenario& scenario) const {
 
 std::vector<experiment::Team> draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base,
                                                 const experiment::RepeatedCalibration& plan, std::uint32_t matches) {
-  if (plan.calibrations > 0 && !base.robots.empty()) {
-    throw UsageError{fmt::format(
-        "--robot and --calibrations {}: robots are those of files or of calibrations; leave one out (--calibrations 0)",
-        plan.calibrations)};
-  }
-  if (plan.calibrations > matches)
-    throw UsageError{fmt::format("--calibrations {}: more calibrations than --matches {}", plan.calibrations, matches)};
+  experiment::ArmBase flags = base;
+  flags.robots_called = "--robot";
+  flags.before_numbers = "--";
+  experiment::check_calibrations(flags, plan.calibrations, matches);
   ProgressBar bar;
   return experiment::calibrated_teams(scenario, plan, [&](std::size_t done, std::size_t all) {
     bar.show(static_cast<double>(done), static_cast<double>(all), "calibrations", "calibration");

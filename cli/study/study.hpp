@@ -43,7 +43,8 @@ struct Study {
 };
 
 /// The teams of the calibrations, played with a progress bar on a terminal, for an experiment of so many
-/// matches. Throws UsageError where `base` names robot files, too, and where there are more calibrations than matches.
+/// matches. Throws config::BadArgument where `base` names robot files, too, and where there are more calibrations than
+/// matches.
 std::vector<experiment::Team> draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base,
                                                 const experiment::RepeatedCalibration& plan, std::uint32_t matches);
 

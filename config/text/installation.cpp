@@ -1,5 +1,6 @@
 #include "config/text/installation.hpp"
 
+#include <dlfcn.h>
 #include <fmt/core.h>
 
 #include <cstdlib>
@@ -20,16 +21,26 @@ fs::path named() {
   return folder == nullptr ? "" : folder;
 }
 
+/// Where this code lies: the program, or a shared library that has it, such as the Python module.
+fs::path own_file() {
+  std::error_code unknown;
+  Dl_info found{};
+  if (dladdr(reinterpret_cast<const void*>(&holds_settings), &found) != 0 &&
+      fs::path{found.dli_fname}.extension() == ".so")
+    return fs::canonical(found.dli_fname, unknown);
+  return fs::read_symlink("/proc/self/exe", unknown);
+}
+
 }  // namespace
 
 fs::path folder(const fs::path& of_machine) {
   if (!named().empty()) return named();
-  std::error_code unknown;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", unknown).parent_path();
+  const fs::path beside = own_file().parent_path();
   fs::path installed = beside.parent_path() / "share/trivela/config";
   if (!holds_settings(beside / "config") && holds_settings(installed)) return installed;
   for (fs::path above = beside; above.has_relative_path(); above = above.parent_path()) {
-    if (holds_settings(above / "config")) return above / "config";
+    for (const char* const name : {"config", "share/trivela/config"})
+      if (holds_settings(above / name)) return above / name;
   }
   return holds_settings(of_machine) ? of_machine : installed;
 }

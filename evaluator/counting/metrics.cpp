@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "evaluator/counting/log_opportunities.hpp"
 #include "evaluator/metrics/all_metrics.hpp"
 
 namespace trivela::evaluator {
@@ -24,6 +25,12 @@ std::optional<Metric> metric(std::string_view name) {
   const auto* const found = std::ranges::find(kMetrics, name, &Metric::name);
   if (found == std::end(kMetrics)) return std::nullopt;
   return *found;
+}
+
+void ask_counted(log::Reader& reader, const std::string& name, const std::string& sql, const log::HeadFunction& head,
+                 const log::RowFunction& row) {
+  if (sql.find("counted_kicks") != std::string::npos) read_opportunities(reader, name, false);
+  reader.ask(sql, head, row);
 }
 
 }  // namespace trivela::evaluator

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "log/read/reader.hpp"
+
 namespace trivela::evaluator {
 
 /// A question that match logs are asked, evaluator/metrics/NAME.sql.
@@ -21,5 +23,10 @@ std::span<const Metric> metrics();
 
 /// The metric of this name, if it is one.
 std::optional<Metric> metric(std::string_view name);
+
+/// Reader::ask() of an open log, which sentences call `name`: where the question is about counted_kicks, what several
+/// sessions recorded of one play, and what a merge holds twice, counts once, as in a report.
+void ask_counted(log::Reader& reader, const std::string& name, const std::string& sql, const log::HeadFunction& head,
+                 const log::RowFunction& row);
 
 }  // namespace trivela::evaluator

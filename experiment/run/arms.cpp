@@ -118,12 +118,14 @@ Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
 
 }  // namespace
 
-std::vector<Arm> arms_of(const std::string& text, const ArmBase& base) {
+std::vector<Arm> arms_of(const std::vector<config::ArmFields>& fields, const ArmBase& base) {
   std::vector<Arm> arms;
-  for (const config::ArmFields& fields :
-       text.ends_with(".toml") ? config::load_arms(text) : arms_named(text, base.arms_called))
-    arms.push_back(arm_of(fields, base));
+  for (const config::ArmFields& arm : fields) arms.push_back(arm_of(arm, base));
   return arms;
+}
+
+std::vector<Arm> arms_of(const std::string& text, const ArmBase& base) {
+  return arms_of(text.ends_with(".toml") ? config::load_arms(text) : arms_named(text, base.arms_called), base);
 }
 
 std::vector<std::string> shared_robots(const sim::Scenario& scenario, const std::vector<Arm>& arms) {

@@ -17,12 +17,17 @@ struct ArmBase {
   std::vector<std::string> robots;     ///< robot files; empty: the calibrated ones
   std::string arms_called = "arms";    ///< in sentences on the arms' text
   std::string set_called = "set";      ///< in sentences on the overrides
+  std::string robots_called = "robots";
+  std::string before_numbers{};  ///< "--" where sentences call matches and calibrations by flags
 };
 
 /// The arms that `text` names: policies such as "stopped,moving,predictive", each "@old" or "@new" where it plays with
 /// that height table, or a file of arms (ending in .toml). Throws config::BadArgument and config::Error with the name
 /// that is none.
 std::vector<Arm> arms_of(const std::string& text, const ArmBase& base);
+
+/// The arms of a file's [[arm]] tables, or of a text of them. Throws as above.
+std::vector<Arm> arms_of(const std::vector<config::ArmFields>& arms, const ArmBase& base);
 
 /// A sentence where an arm has fewer robot files than the scenario's team has robots, each once.
 std::vector<std::string> shared_robots(const sim::Scenario& scenario, const std::vector<Arm>& arms);

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "config/text/error.hpp"
 #include "experiment/calibration/simulated_calibration.hpp"
 #include "experiment/run/in_threads.hpp"
 
@@ -24,6 +25,19 @@ config::Robot robot_of(const sim::Scenario& world, const RepeatedCalibration& pl
 }
 
 }  // namespace
+
+void check_calibrations(const ArmBase& base, std::uint32_t calibrations, std::uint32_t matches) {
+  const std::string called = base.before_numbers + "calibrations";
+  if (calibrations > 0 && !base.robots.empty()) {
+    throw config::BadArgument{
+        fmt::format("{} and {} {}: robots are those of files or of calibrations; leave one out ({} 0)",
+                    base.robots_called, called, calibrations, called)};
+  }
+  if (calibrations > matches) {
+    throw config::BadArgument{
+        fmt::format("{} {}: more calibrations than {}matches {}", called, calibrations, base.before_numbers, matches)};
+  }
+}
 
 std::vector<Team> calibrated_teams(const sim::Scenario& world, const RepeatedCalibration& plan,
                                    const std::function<void(std::size_t done, std::size_t all)>& progress) {

@@ -29,6 +29,9 @@ struct RepeatedCalibration {
   unsigned jobs = 1;               ///< threads
 };
 
+/// Throws config::BadArgument where `base` names robot files, too, and where there are more calibrations than matches.
+void check_calibrations(const ArmBase& base, std::uint32_t calibrations, std::uint32_t matches);
+
 /// The teams that the calibrations leave behind. The same for any number of jobs. `progress`: calibrations of robots
 /// that were played, of how many; called by one thread at a time.
 std::vector<Team> calibrated_teams(

@@ -1,23 +1,18 @@
 #include "experiment/run/experiment.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <chrono>
-#include <functional>
 #include <map>
-#include <mutex>
-#include <utility>
 
 #include "config/scenario/scenario.hpp"
 #include "config/text/error.hpp"
 #include "config/text/installation.hpp"
 #include "evaluator/render/simulated.hpp"
 #include "experiment/run/arms.hpp"
-#include "experiment/run/in_threads.hpp"
+#include "experiment/run/match_play.hpp"
 #include "experiment/run/record_match.hpp"
 #include "experiment/study/report.hpp"
-#include "kicking/geometry/time.hpp"
 #include "log/read/reader.hpp"
 #include "log/schema/digest.hpp"
 #include "log/write/experiment_log.hpp"
@@ -31,34 +26,6 @@ using log::ExperimentLog;
 using log::Session;
 
 constexpr std::uint32_t kTriedMatches = 100;  // whose robots are made before the log is
-
-/// One arm's match, played.
-struct Played {
-  MatchRecord record;
-  std::uint64_t seed = 0;
-  std::int64_t end_t_ns = 0;
-  double processor_s = 0.0;
-};
-
-double processor_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + kicking::seconds(now.tv_nsec);
-}
-
-std::vector<Played> play_all(const ExperimentPlan& plan, const CalibratedArms& calibrations, std::uint32_t match_id) {
-  const std::vector<Arm>& arms = calibrations.of(match_id);
-  std::vector<Played> played(arms.size());
-  for (std::size_t i = 0; i < arms.size(); ++i) {
-    const double before_s = processor_s();
-    const PlayedMatch match =
-        play_match(plan.scenario, arms[i], plan.seed, match_id, plan.possessions, plan.options, &played[i].record);
-    played[i].processor_s = processor_s() - before_s;
-    played[i].seed = match.match_seed;
-    played[i].end_t_ns = match.end_t_ns;
-  }
-  return played;
-}
 
 /// The policy of the half where all robots have the same one, else each robot's; none where it is drawn.
 std::vector<log::HalfPolicy> policies_of(const ExperimentPlan& plan, const Arm& arm) {
@@ -111,38 +78,6 @@ class Sessions {
  private:
   std::string arguments_sha256_;
   std::vector<std::vector<Session>> sessions_;  // by calibration and arm
-};
-
-/// Somebody asked to stop.
-struct Interrupted {};
-
-/// Writes matches in the order of their numbers, whatever order they are played in. Any thread may add one; one of them
-/// writes at a time, while the others play on.
-class OrderedWriter {
- public:
-  using Write = std::function<void(std::uint32_t match_id, const std::vector<Played>& played)>;
-
-  OrderedWriter(std::uint32_t first, Write write) : next_(first), write_(std::move(write)) {}
-
-  void add(std::uint32_t match_id, std::vector<Played> played) {
-    std::unique_lock lock{mutex_};
-    waiting_.emplace(match_id, std::move(played));
-    if (std::exchange(writing_, true)) return;
-    while (const auto found = waiting_.extract(next_)) {
-      lock.unlock();
-      write_(found.key(), found.mapped());
-      lock.lock();
-      ++next_;
-    }
-    writing_ = false;
-  }
-
- private:
-  std::mutex mutex_;
-  std::uint32_t next_;
-  Write write_;
-  std::map<std::uint32_t, std::vector<Played>> waiting_;
-  bool writing_ = false;
 };
 
 /// What the arms did in each match.
@@ -254,32 +189,18 @@ ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const st
   watch.found(log.matches_done());
   ExperimentRun run{.processor_s = std::vector<double>(plan.arms.size())};
   const auto started = std::chrono::steady_clock::now();
-  const auto write = [&](std::uint32_t match_id, const std::vector<Played>& played) {
+  const auto write = [&](std::uint32_t match_id, const std::vector<ArmMatch>& arms) {
     log.begin();
-    for (std::size_t i = 0; i < played.size(); ++i) {
-      const std::int64_t session_id = log.add_session(sessions.of(match_id, i, played[i].seed), played[i].end_t_ns);
-      tables.write(played[i].record, session_id);
-      run.processor_s[i] += played[i].processor_s;
+    for (std::size_t i = 0; i < arms.size(); ++i) {
+      const PlayedMatch& match = arms[i].played;
+      const std::int64_t session_id = log.add_session(sessions.of(match_id, i, match.match_seed), match.end_t_ns);
+      tables.write(arms[i].record, session_id);
+      run.processor_s[i] += arms[i].processor_s;
     }
     log.end_match();
+    if (watch.played) watch.played(match_id, arms);
   };
-  OrderedWriter writer{first, write};
-  try {
-    in_threads(
-        range.end - first, jobs,
-        [&](std::size_t i) {
-          const std::uint32_t match_id = first + static_cast<std::uint32_t>(i);
-          writer.add(match_id, play_all(plan, calibrations, match_id));
-        },
-        [&](std::size_t done, std::size_t all) {
-          const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
-          const double opportunities = static_cast<double>(done * plan.possessions * plan.arms.size());
-          watch.progress(static_cast<double>(done), static_cast<double>(all),
-                         fmt::format("{:.0f} opportunities/s", opportunities / wall.count()));
-          if (watch.stop()) throw Interrupted{};
-        });
-  } catch (const Interrupted&) {
-  }
+  play_matches(plan, first, jobs, true, watch, write);
   log.commit();
   run.wall_s = std::chrono::duration<double>{std::chrono::steady_clock::now() - started}.count();
   run.in_log = log.matches_done();

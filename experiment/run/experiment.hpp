@@ -35,11 +35,15 @@ struct ExperimentPlan {
 /// be played.
 void check_playable(const ExperimentPlan& plan);
 
+struct ArmMatch;
+
 /// Who looks on while an experiment is played.
 struct ExperimentWatch {
   std::function<void(std::int64_t matches)> found;                                   ///< in the log already
   std::function<void(double done, double total, const std::string& what)> progress;  ///< after each match
   std::function<bool()> stop;  ///< asked as often: shall no further match begin?
+  std::function<void(std::uint32_t match_id, const std::vector<ArmMatch>& arms)>
+      played{};  ///< each match; may be empty
 };
 
 /// What a run of an experiment did.

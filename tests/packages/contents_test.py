@@ -25,7 +25,9 @@ class Contents(unittest.TestCase):
         made = subprocess.run(["cpack", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder, "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=none"],
                               capture_output=True, text=True, cwd=BUILD)
         assert made.returncode == 0, made.stdout + made.stderr
-        cls.debs = {re.match(r"trivela-([a-z]+)_", deb.name)[1]: deb for deb in cls.folder.glob("*.deb")}
+        cls.debs = {re.match(r"trivela-([a-z]+)_|(?P<python>python3)-trivela_", deb.name): deb for deb in cls.folder.glob("*.deb")}
+        cls.debs = {match["python"] or match[1]: deb for match, deb in cls.debs.items()}
+        cls.has_python = (BUILD / "python/trivela").exists()  # where pybind11 is
         cls.files = {name: cls.list(deb) for name, deb in cls.debs.items()}
 
     @staticmethod
@@ -37,7 +39,7 @@ class Contents(unittest.TestCase):
         return output("dpkg-deb", "-f", self.debs[name], field).strip()
 
     def test_each_has_what_it_is_for_and_nothing_stands_twice(self):
-        self.assertEqual(set(self.debs), {"robot", "base", "dev"})
+        self.assertEqual(set(self.debs), {"robot", "base", "dev"} | ({"python3"} if self.has_python else set()))
         nodes = {f"/usr/bin/trivela-{path.parent.name}" for path in (ROOT / "nodes").glob("*/*_node.cpp")}
         nodes.add("/usr/bin/trivela-kick_decision_second")  # the same node in another role
         shipped = {f"/etc/trivela/{path.relative_to(ROOT / 'config')}" for ending in ("toml", "xml", "csv", "nft")
@@ -55,6 +57,12 @@ class Contents(unittest.TestCase):
                      "include/trivela/idl/kick.idl", "include/trivela/idl/kick.h"):
             self.assertIn(f"/usr/{file}", dev)
         self.assertFalse([file for file in dev if not file.startswith(("/usr/include/trivela/", "/usr/lib/"))])
+        if self.has_python:
+            folder, module = "/usr/lib/python3/dist-packages/trivela", r"_trivela\.cpython-\d+-[\w-]+\.so"
+            sources = {f"{folder}/{path.name}" for path in (ROOT / "python/trivela").iterdir() if path.suffix in (".py", ".pyi", ".typed")}
+            modules = {file for file in self.files["python3"] if re.fullmatch(f"{folder}/{module}", file)}
+            self.assertEqual(len(modules), 1)
+            self.assertEqual(set(self.files["python3"]), sources | modules)
         everything = [file for files in self.files.values() for file in files]
         self.assertEqual(len(everything), len(set(everything)))
 
@@ -78,6 +86,20 @@ class Contents(unittest.TestCase):
         self.assertIn(f"trivela-robot (= {version})", self.field("base", "Depends"))
         self.assertRegex(self.field("base", "Depends"), "libcpp-httplib")
         self.assertIn("libeigen3-dev", self.field("dev", "Depends"))
+        if self.has_python:
+            for needed in (f"trivela-base (= {version})", "python3-numpy", "python3-pandas", "libsqlitecpp|libsqlite3"):
+                self.assertRegex(self.field("python3", "Depends"), needed.replace("(", r"\(").replace(")", r"\)"))
+
+    def test_the_installed_module_finds_the_installed_configuration(self):
+        if not self.has_python:
+            self.skipTest("the build has no Python module")
+        root = self.folder / "python"
+        for name in ("robot", "python3"):
+            subprocess.run(["dpkg-deb", "-x", self.debs[name], root], check=True)
+        modules = root / "usr/lib/python3/dist-packages"
+        said = subprocess.run(["/usr/bin/python3", "-B", "-c", "import trivela; print(trivela.__file__, trivela.solve(4, 0.5, 0.6).v0_mps)"],
+                              capture_output=True, text=True, env={"PYTHONPATH": str(modules)})
+        self.assertIn(f"{modules}/trivela/__init__.py 7.", said.stdout + said.stderr)
 
     def test_units_say_what_the_documents_promise(self):
         unit = (ROOT / "packaging/trivela@.service").read_text()

@@ -58,7 +58,7 @@ if [[ $# == 0 ]]; then
   say "packages"
   (cd "$build" && cpack --config CPackConfig.cmake -B "$root/made" -D CPACK_DEBIAN_COMPRESSION_TYPE=none) >"$root/cpack.log" 2>&1 ||
     { tail "$root/cpack.log" >&2; stop "cpack fails"; }
-  set -- "$root"/made/*.deb
+  set -- "$root"/made/trivela-*.deb
 fi
 mkdir "$root/debs"
 cp "$@" "$root/debs"

@@ -1,0 +1,243 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <numbers>
+#include <optional>
+
+#include "config/robot.hpp"
+#include "kicking/alignment/alignment.hpp"
+#include "kicking/alignment/release_predictor.hpp"
+#include "kicking/ballistics/drag.hpp"
+#include "kicking/ballistics/kick_speeds.hpp"
+#include "kicking/outcome/outcome.hpp"
+#include "python/arrays.hpp"
+
+namespace trivela::python {
+namespace {
+
+using Numbers = Flat<double>;
+
+struct Flight {
+  double gravity_mps2, ball_radius_m, ball_mass_kg, air_density_kgpm3;
+
+  kicking::Ball ball() const { return {.mass_kg = ball_mass_kg, .radius_m = ball_radius_m}; }
+};
+
+void require_all_finite(std::initializer_list<std::pair<const char*, std::span<const double>>> arguments) {
+  for (const auto& argument : arguments) require_finite(argument.first, argument.second);
+}
+
+void require_acute(const char* name, std::span<const double> angles_rad) {
+  require(name, angles_rad, "is not between 0 and pi / 2",
+          [](double angle_rad) { return angle_rad > 0.0 && angle_rad < 0.5 * std::numbers::pi; });
+}
+
+py::dict solve(const Numbers& distance_m, const Numbers& height_m, const Numbers& exit_angle_rad,
+               const Numbers& v_front_mps, const Numbers& transfer, const std::optional<Numbers>& drag_coefficient,
+               const std::optional<config::Robot>& robot, const Flight& flight) {
+  const auto d = span_of(distance_m), h = span_of(height_m), angle = span_of(exit_angle_rad), v = span_of(v_front_mps),
+             k = span_of(transfer), drag = drag_coefficient ? span_of(*drag_coefficient) : std::span<const double>();
+  require_positive("distance_m", d);
+  require_finite("height_m", h);
+  require_acute("exit_angle_rad", angle);
+  require_finite("v_front_mps", v);
+  require_up_to("transfer", k, 10.0);
+  require_up_to("drag_coefficient", drag, 10.0);
+  std::vector<double> v0(d.size()), exact(d.size()), paper(d.size()), with_drag(drag.size()), power;
+  std::vector<std::uint8_t> feasible(d.size()), descending(d.size());
+  std::vector<std::int8_t> range;
+  if (robot) {
+    power.assign(d.size(), kNone);
+    range.assign(d.size(), -1);
+  }
+  {
+    const py::gil_scoped_release others;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const kicking::WantedKick wanted{{d[i], h[i]}, angle[i], v[i], k[i], flight.gravity_mps2};
+      const kicking::KickSpeeds speeds = kicking::kick_speeds(wanted);
+      v0[i] = speeds.v0_mps.wire();
+      exact[i] = speeds.vk_exact_mps.wire();
+      paper[i] = speeds.vk_paper_mps.wire();
+      feasible[i] = speeds.v0_mps.has_value();
+      descending[i] = speeds.descending;
+      if (!drag.empty()) {
+        const double per_m = kicking::drag_per_m(flight.ball(), {flight.air_density_kgpm3, drag[i]});
+        with_drag[i] = kicking::crossing_speed_with_drag(wanted.point, angle[i], per_m, flight.gravity_mps2).wire();
+      }
+      if (robot && speeds.vk_exact_mps) {
+        const kicking::PowerReading reading = robot->model.table.power_for(*speeds.vk_exact_mps);
+        power[i] = reading.power;
+        range[i] = static_cast<std::int8_t>(reading.range);
+      }
+    }
+  }
+  py::dict columns;
+  columns["v0_mps"] = array_of(std::move(v0));
+  columns["vk_exact_mps"] = array_of(std::move(exact));
+  columns["vk_paper_mps"] = array_of(std::move(paper));
+  columns["feasible"] = array_of_truths(std::move(feasible));
+  columns["descending"] = array_of_truths(std::move(descending));
+  if (drag_coefficient) columns["v0_drag_mps"] = array_of(std::move(with_drag));
+  if (robot) columns["power"] = array_of(std::move(power));
+  if (robot) columns["power_range"] = array_of(std::move(range));
+  return columns;
+}
+
+py::dict align(const Numbers& x_m, const Numbers& y_m, const Numbers& heading_rad, const Numbers& alpha_rad,
+               const Numbers& target_x_m, const Numbers& target_y_m, const Numbers& beta_rad,
+               const Numbers& omega_radps, bool add) {
+  const auto x = span_of(x_m), y = span_of(y_m), heading = span_of(heading_rad), alpha = span_of(alpha_rad),
+             tx = span_of(target_x_m), ty = span_of(target_y_m), beta = span_of(beta_rad), omega = span_of(omega_radps);
+  const auto within_turn = [](double turns) {
+    return [most = turns * std::numbers::pi](double angle_rad) { return std::abs(angle_rad) <= most; };
+  };
+  require_all_finite({{"x_m", x},
+                      {"y_m", y},
+                      {"heading_rad", heading},
+                      {"target_x_m", tx},
+                      {"target_y_m", ty},
+                      {"omega_radps", omega}});
+  require("alpha_rad", alpha, "is not from -pi to pi", within_turn(1.0));
+  require("beta_rad", beta, "is not from -2 pi to 2 pi", within_turn(2.0));
+  std::vector<double> distance(x.size()), offset(x.size()), left(x.size()), right(x.size());
+  std::vector<std::uint8_t> aligned(x.size());
+  {
+    const py::gil_scoped_release others;
+    kicking::AlignmentRule rule;
+    rule.extension = add ? kicking::Extension::kAdd : kicking::Extension::kMax;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const kicking::Alignment result =
+          kicking::align({x[i], y[i], heading[i]}, alpha[i], beta[i], omega[i], {tx[i], ty[i]}, rule);
+      distance[i] = result.centre_distance_m;
+      offset[i] = result.offset_right_m.wire();
+      left[i] = result.left_m;
+      right[i] = result.right_m;
+      aligned[i] = result.aligned;
+    }
+  }
+  py::dict columns;
+  columns["distance_m"] = array_of(std::move(distance));
+  columns["offset_right_m"] = array_of(std::move(offset));
+  columns["left_m"] = array_of(std::move(left));
+  columns["right_m"] = array_of(std::move(right));
+  columns["aligned"] = array_of_truths(std::move(aligned));
+  return columns;
+}
+
+py::dict predict(const Numbers& x_m, const Numbers& y_m, const Numbers& heading_rad, const Numbers& vx_mps,
+                 const Numbers& vy_mps, const Numbers& omega_radps, const Numbers& v_kick_mps,
+                 const Numbers& exit_angle_rad, const Numbers& transfer, const Numbers& delay_s,
+                 const Numbers& ball_offset_m, const Numbers& goal_y_m, const Flight& flight) {
+  const auto x = span_of(x_m), y = span_of(y_m), heading = span_of(heading_rad), vx = span_of(vx_mps),
+             vy = span_of(vy_mps), omega = span_of(omega_radps), speed = span_of(v_kick_mps),
+             angle = span_of(exit_angle_rad), k = span_of(transfer), delay = span_of(delay_s),
+             offset = span_of(ball_offset_m), goal = span_of(goal_y_m);
+  require_all_finite({{"x_m", x},
+                      {"y_m", y},
+                      {"heading_rad", heading},
+                      {"vx_mps", vx},
+                      {"vy_mps", vy},
+                      {"omega_radps", omega},
+                      {"goal_y_m", goal}});
+  require_positive("v_kick_mps", speed);
+  require_acute("exit_angle_rad", angle);
+  require_up_to("transfer", k, 10.0);
+  require_up_to("delay_s", delay, 10.0);
+  require_up_to("ball_offset_m", offset, 10.0);
+  std::vector<double> x_cross(x.size(), kNone), z_cross(x.size(), kNone), t_flight(x.size(), kNone);
+  {
+    const py::gil_scoped_release others;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const kicking::KickAction kick{speed[i], angle[i], {k[i], k[i], k[i]}, delay[i], offset[i]};
+      const auto crossing = kicking::predict_crossing({x[i], y[i], heading[i]}, {vx[i], vy[i], omega[i]}, kick, goal[i],
+                                                      flight.ball_radius_m, flight.gravity_mps2);
+      if (!crossing) continue;
+      x_cross[i] = crossing->x_m;
+      z_cross[i] = crossing->z_m;
+      t_flight[i] = crossing->t_flight_s;
+    }
+  }
+  py::dict columns;
+  columns["x_cross_m"] = array_of(std::move(x_cross));
+  columns["z_cross_m"] = array_of(std::move(z_cross));
+  columns["t_flight_s"] = array_of(std::move(t_flight));
+  return columns;
+}
+
+py::array judge(const Numbers& x_cross_m, const Numbers& z_cross_m, const kicking::Goal& goal, double ball_radius_m) {
+  const auto x = span_of(x_cross_m), z = span_of(z_cross_m);
+  std::vector<std::int8_t> outcomes(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    outcomes[i] = static_cast<std::int8_t>(kicking::classify(x[i], z[i], goal, {.radius_m = ball_radius_m}));
+  return array_of(std::move(outcomes));
+}
+
+py::dict judge_probabilities(const Numbers& x_cross_m, const Numbers& sd_x_m, const Numbers& z_cross_m,
+                             const Numbers& sd_z_m, const kicking::Goal& goal, double ball_radius_m) {
+  const auto x = span_of(x_cross_m), sd_x = span_of(sd_x_m), z = span_of(z_cross_m), sd_z = span_of(sd_z_m);
+  require_finite("x_cross_m", x);
+  require_finite("z_cross_m", z);
+  require_positive("sd_x_m", sd_x);
+  require_positive("sd_z_m", sd_z);
+  constexpr std::size_t kinds = std::tuple_size_v<kicking::OutcomeProbabilities>;
+  std::vector<std::vector<double>> p(kinds, std::vector<double>(x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const auto row = kicking::crossing_probabilities(x[i], sd_x[i], z[i], sd_z[i], goal, {.radius_m = ball_radius_m});
+    for (std::size_t kind = 0; kind < kinds; ++kind) p[kind][i] = row[kind];
+  }
+  py::dict columns;
+  for (std::size_t kind = 0; kind < kinds; ++kind) columns[kicking::kOutcomeNames[kind]] = array_of(std::move(p[kind]));
+  return columns;
+}
+
+template <double kicking::SetPoint::*column>
+py::array_t<double> set_points(const config::Robot& robot) {
+  std::vector<double> values;
+  for (const kicking::SetPoint& point : robot.model.table.set_points()) values.push_back(point.*column);
+  return array_of(std::move(values));
+}
+
+}  // namespace
+
+void add_kicks(py::module_& module) {
+  const kicking::Ball ball;
+  module.attr("outcomes") = py::tuple(py::cast(kicking::kOutcomeNames));
+  py::class_<Flight>(module, "Flight", "What a flight depends on beside its kick: gravity, the ball and the air.")
+      .def(py::init<double, double, double, double>(), py::kw_only(), py::arg("gravity_mps2") = kicking::kGravity_mps2,
+           py::arg("ball_radius_m") = ball.radius_m, py::arg("ball_mass_kg") = ball.mass_kg,
+           py::arg("air_density_kgpm3") = kicking::Air{}.density_kgpm3)
+      .def_readonly("ball_radius_m", &Flight::ball_radius_m);
+  const kicking::Goal goal;
+  py::class_<kicking::Goal>(
+      module, "Goal",
+      "The opponents' goal: its line in the field frame, inner half-width, height, width of the frame [m].")
+      .def(py::init([](double y, double half_width, double height, double post) {
+             return kicking::Goal{y, half_width, height, post};
+           }),
+           py::kw_only(), py::arg("y_m") = goal.y_m, py::arg("half_width_m") = goal.half_width_m,
+           py::arg("height_m") = goal.height_m, py::arg("post_width_m") = goal.post_width_m)
+      .def_readonly("y_m", &kicking::Goal::y_m)
+      .def_readonly("half_width_m", &kicking::Goal::half_width_m)
+      .def_readonly("height_m", &kicking::Goal::height_m)
+      .def_readonly("post_width_m", &kicking::Goal::post_width_m);
+  py::class_<config::Robot>(
+      module, "Robot",
+      "A robot's file, such as config/robots/cambada_1.toml. Raises ValueError naming file, line, key and value.")
+      .def(py::init([](const std::filesystem::path& file) { return config::load_robot(file); }))
+      .def_readonly("name", &config::Robot::name)
+      .def_readonly("source", &config::Robot::source)
+      .def_property_readonly("powers", set_points<&kicking::SetPoint::power>)
+      .def_property_readonly("speeds_mps", set_points<&kicking::SetPoint::speed_mps>)
+      .def_property_readonly("exit_angle_rad", [](const config::Robot& robot) { return robot.model.exit_angle_rad; })
+      .def_property_readonly("delay_s", [](const config::Robot& robot) { return robot.model.delay_s; })
+      .def_property_readonly("ball_offset_m", [](const config::Robot& robot) { return robot.model.ball_offset_m; });
+  module.def("solve", solve);
+  module.def("align", align);
+  module.def("predict", predict);
+  module.def("judge", judge);
+  module.def("judge_probabilities", judge_probabilities);
+}
+
+}  // namespace trivela::python

@@ -1,0 +1,159 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <array>
+#include <optional>
+
+#include "evaluator/stats/bayes.hpp"
+#include "evaluator/stats/clustered.hpp"
+#include "evaluator/stats/confidence_sequence.hpp"
+#include "evaluator/stats/counts/exact.hpp"
+#include "evaluator/stats/counts/interval.hpp"
+#include "evaluator/stats/counts/robustness.hpp"
+#include "evaluator/stats/paired.hpp"
+#include "evaluator/stats/test_plan.hpp"
+#include "python/arrays.hpp"
+
+namespace trivela::python {
+namespace {
+
+namespace stats = evaluator::stats;
+using stats::Counts;
+using Whole = Flat<std::int64_t>;
+
+template <std::size_t width>
+using Cells = std::array<double, width>;
+
+Cells<1> cells(double value) { return {value}; }
+Cells<1> cells(std::optional<double> value) { return {value.value_or(kNone)}; }
+Cells<2> cells(stats::Interval interval) { return {interval.lo, interval.hi}; }
+Cells<3> cells(const std::optional<stats::Ratio>& ratio) {
+  return ratio ? Cells<3>{ratio->value, ratio->ci.lo, ratio->ci.hi} : Cells<3>{kNone, kNone, kNone};
+}
+Cells<3> cells(const stats::PosteriorDifference& posterior) {
+  return {posterior.median, posterior.central.lo, posterior.central.hi};
+}
+
+void require_counts(const char* inside_name, const char* n_name, const Whole& inside, const Whole& n) {
+  const auto k = span_of(inside), all = span_of(n);
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    if (k[i] >= 0 && k[i] <= all[i]) continue;
+    throw py::value_error(k[i] < 0 || all[i] < 0
+                              ? fmt::format("{}[{}]: a count cannot be negative", k[i] < 0 ? inside_name : n_name, i)
+                              : fmt::format("{}[{}]: {} inside of only {} kicks", inside_name, i, k[i], all[i]));
+  }
+}
+
+void require_confidence(double confidence) {
+  if (!(confidence > 0.0 && confidence < 1.0))
+    throw py::value_error(fmt::format("confidence {:g} is not between 0 and 1", confidence));
+}
+
+/// Rows of `f` for one group of kicks: (inside, n, confidence).
+template <class F>
+auto of_group(F f) {
+  return [f](const Whole& inside, const Whole& n, double confidence) {
+    require_counts("inside", "n", inside, n);
+    require_confidence(confidence);
+    std::vector<double> flat;
+    const auto k = span_of(inside), all = span_of(n);
+    const py::gil_scoped_release others;
+    for (std::size_t i = 0; i < k.size(); ++i) {
+      const auto row = cells(f(Counts{k[i], all[i]}, confidence));
+      flat.insert(flat.end(), row.begin(), row.end());
+    }
+    const py::gil_scoped_acquire python;
+    return array_of(std::move(flat));
+  };
+}
+
+/// Rows of `f` for two groups: (older, newer, confidence).
+template <class F>
+auto of_groups(F f) {
+  return [f](const Whole& older_inside, const Whole& older_n, const Whole& newer_inside, const Whole& newer_n,
+             double confidence) {
+    require_counts("older_inside", "older_n", older_inside, older_n);
+    require_counts("newer_inside", "newer_n", newer_inside, newer_n);
+    require_confidence(confidence);
+    std::vector<double> flat;
+    const auto k1 = span_of(older_inside), n1 = span_of(older_n), k2 = span_of(newer_inside), n2 = span_of(newer_n);
+    const py::gil_scoped_release others;
+    for (std::size_t i = 0; i < k1.size(); ++i) {
+      const auto row = cells(f(Counts{k1[i], n1[i]}, Counts{k2[i], n2[i]}, confidence));
+      flat.insert(flat.end(), row.begin(), row.end());
+    }
+    const py::gil_scoped_acquire python;
+    return array_of(std::move(flat));
+  };
+}
+
+/// The same where `f` has no confidence.
+template <class F>
+auto of_counts(F f) {
+  return of_groups([f](Counts older, Counts newer, double) { return f(older, newer); });
+}
+
+stats::PairedCounts pairs_of(std::int64_t both, std::int64_t newer_only, std::int64_t older_only,
+                             std::int64_t neither) {
+  if (both < 0 || newer_only < 0 || older_only < 0 || neither < 0)
+    throw py::value_error("a count of pairs cannot be negative");
+  return {both, newer_only, older_only, neither};
+}
+
+}  // namespace
+
+void add_statistics(py::module_& module) {
+  module.def("wilson", of_group([](Counts c, double confidence) { return stats::wilson(c, confidence); }));
+  module.def("clopper_pearson",
+             of_group([](Counts c, double confidence) { return stats::clopper_pearson(c, confidence); }));
+  module.def("confidence_sequence",
+             of_group([](Counts c, double confidence) { return stats::confidence_sequence(c, confidence); }));
+  module.def("newcombe", of_groups([](Counts a, Counts b, double confidence) { return newcombe(a, b, confidence); }));
+  module.def("agresti_caffo",
+             of_groups([](Counts a, Counts b, double confidence) { return agresti_caffo(a, b, confidence); }));
+  module.def("difference_sequence",
+             of_groups([](Counts a, Counts b, double confidence) { return difference_sequence(a, b, confidence); }));
+  module.def("risk_ratio",
+             of_groups([](Counts a, Counts b, double confidence) { return risk_ratio(a, b, confidence); }));
+  module.def("odds_ratio",
+             of_groups([](Counts a, Counts b, double confidence) { return odds_ratio(a, b, confidence); }));
+  module.def("posterior_difference",
+             of_groups([](Counts a, Counts b, double confidence) { return posterior_difference(a, b, confidence); }));
+  module.def("fisher_one_sided", of_counts([](Counts a, Counts b) { return stats::fisher_one_sided(a, b); }));
+  module.def("fisher_two_sided", of_counts([](Counts a, Counts b) { return stats::fisher_two_sided(a, b); }));
+  module.def("boschloo_one_sided", of_counts([](Counts a, Counts b) { return stats::boschloo_one_sided(a, b); }));
+  module.def("boschloo_two_sided",
+             of_counts([](Counts a, Counts b) { return stats::boschloo_two_sided_doubled(a, b); }));
+  module.def("p_newer_better", of_counts([](Counts a, Counts b) { return stats::p_new_better(a, b); }));
+  module.def("expected_loss_of_newer",
+             of_counts([](Counts a, Counts b) { return stats::expected_loss_of_newer(a, b); }));
+  module.def("always_valid_p", of_counts([](Counts a, Counts b) { return stats::always_valid_p(a, b); }));
+  module.def(
+      "mcnemar",
+      [](std::int64_t both, std::int64_t newer_only, std::int64_t older_only, std::int64_t neither) {
+        return stats::mcnemar_two_sided(pairs_of(both, newer_only, older_only, neither));
+      },
+      "p of McNemar's exact test (1947), two-sided; 1 where the two never differ.", py::arg("both"),
+      py::arg("newer_only"), py::arg("older_only"), py::arg("neither"));
+  module.def("paired_newcombe", [](std::int64_t both, std::int64_t newer_only, std::int64_t older_only,
+                                   std::int64_t neither, double confidence) {
+    require_confidence(confidence);
+    return cells(stats::paired_newcombe(pairs_of(both, newer_only, older_only, neither), confidence));
+  });
+  module.def(
+      "kicks_per_policy",
+      [](double p1, double p2, double power, double alpha) {
+        const double shares[] = {p1, p2, power, alpha};
+        require("p1, p2, power, alpha", shares, "is not from 0 to 1", [](double p) { return p >= 0.0 && p <= 1.0; });
+        return stats::kicks_per_policy(p1, p2, power, alpha);
+      },
+      "Kicks of each policy with which the two-sided test of level alpha finds p1 against p2 with this power (R's\n"
+      "power.prop.test), not rounded; None: p1 == p2.",
+      py::arg("p1"), py::arg("p2"), py::arg("power") = stats::kPower, py::arg("alpha") = 0.05);
+  module.def("holm", [](const Flat<double>& p) {
+    require("p", span_of(p), "is not from 0 to 1", [](double x) { return x >= 0.0 && x <= 1.0; });
+    return array_of(stats::holm(span_of(p)));
+  });
+}
+
+}  // namespace trivela::python

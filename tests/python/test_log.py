@@ -1,0 +1,127 @@
+import sqlite3
+
+import numpy
+import pandas
+import pytest
+import trivela
+
+from conftest import answer, program, refusal
+
+
+def same(table, rows):
+    """Each cell is the program's, bit for bit."""
+    assert len(table) == len(rows) > 0
+    for name in rows[0]:
+        for ours, row in zip(table[name].tolist(), rows):
+            theirs = row[name]
+            assert pandas.isna(ours) if theirs is None else ours == theirs, name
+
+
+def test_kicks_outcomes_and_decisions_are_the_programs_rows(experiment):
+    log = trivela.Log(experiment)
+    assert log.warnings == []
+    same(log.kicks(), answer("query", experiment, "--metric", "listed_kicks"))
+    same(log.outcomes(), answer("query", experiment, "--metric", "listed_outcomes"))
+    same(log.decisions(), answer("query", experiment, "SELECT * FROM kick_decisions ORDER BY session_id, robot_id, seq"))
+
+
+def test_columns_have_their_types(experiment):
+    kicks = trivela.Log(experiment).kicks()
+    assert kicks.distance_m.dtype == kicks.truth_x_cross_m.dtype == kicks.power.dtype == "float64"
+    assert kicks.kick_id.dtype == kicks.half.dtype == "int64" and kicks.aligned.dtype == "boolean"
+    assert set(kicks.policy) == {"stopped", "moving"} and kicks.outcome.map(type).isin([str, type(None)]).all()
+    assert kicks.release_t_ns.max() > 0
+    decisions = trivela.Log(experiment).decisions()
+    assert decisions.fire.dtype == "boolean" and decisions.fire.sum() >= len(kicks)
+    assert "ball centre to target" in trivela.Log(experiment).meaning("distance_m")
+
+
+def test_opportunities_are_those_that_compare_counts(experiment):
+    log = trivela.Log(experiment)
+    for outcome in ("observed", "truth"):
+        groups = {group["name"]: group for group in answer("compare", experiment, "--outcome", outcome)["groups"]}
+        counted = log.opportunities(outcome).groupby("arm").ending.value_counts()
+        for name, group in groups.items():
+            assert counted[name].sum() == group["opportunities"] == 24
+            assert counted[name].get("inside", 0) == group["inside"]
+            assert counted[name].get("outside", 0) == group["outside"]
+
+
+def test_report_and_comparison_are_the_programs(experiment):
+    report = trivela.Log(experiment).report()
+    assert report == answer("report", experiment)
+    assert report.text == program("report", experiment)
+    comparison = trivela.compare(experiment, outcome="truth", baseline="moving", smallest_effect=0.1)
+    assert comparison == answer("compare", experiment, "--outcome", "truth", "--baseline", "moving", "--smallest-effect", 10)
+    assert trivela.report(experiment, blocked="apart") == answer("report", experiment, "--blocked", "apart")
+
+
+def test_two_recordings_of_a_play_count_once(tmp_path):
+    for name, seed in (("one", 3), ("two", 3), ("other", 4)):
+        program("simulate", "--arms", "moving", "--matches", 2, "--possessions", 5, "--seed", seed, "--out", tmp_path / f"{name}.db")
+    one = trivela.Log(tmp_path / "one.db")
+    both = trivela.Log(tmp_path / "one.db", tmp_path / "two.db")
+    assert len(both.kicks()) == len(one.kicks()) == trivela.report(tmp_path / "one.db", tmp_path / "two.db")["policies"][0]["inside"] + trivela.report(tmp_path / "one.db", tmp_path / "two.db")["policies"][0]["outside"]
+    assert len(both.decisions()) == len(one.decisions())
+    assert len(both.opportunities()) == len(one.opportunities()) == 10
+    assert both.opportunities().attrs["remarks"]
+    nights = trivela.Log(tmp_path / "one.db", tmp_path / "other.db")
+    assert set(nights.kicks().log) == {str(tmp_path / "one.db"), str(tmp_path / "other.db")}
+    compared = trivela.compare(tmp_path / "one.db", tmp_path / "other.db", by="log")
+    assert compared == answer("compare", tmp_path / "one.db", tmp_path / "other.db", "--by", "log")
+
+
+def test_a_label_by_hand_comes_before_what_the_robot_saw(experiment, tmp_path):
+    log = tmp_path / "labelled.db"
+    log.write_bytes(experiment.read_bytes())
+    before = trivela.Log(log).outcomes()
+    kick = before[before.outcome == "on_target"].iloc[0]
+    labelled = program("label", "--help")
+    assert "--" in labelled
+    with sqlite3.connect(log) as rows:
+        rows.execute("INSERT INTO labels (session_id, robot_id, kick_id, utc_ns, who, t_ns, outcome, note) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+                     (int(kick.session_id), int(kick.robot_id), int(kick.kick_id), 1, "Ana", int(kick.t_ns), "over", ""))
+    after = trivela.Log(log).outcomes()
+    changed = after[(after.session_id == kick.session_id) & (after.kick_id == kick.kick_id)].iloc[0]
+    assert (changed.outcome, changed.observed_outcome, changed.hand_outcome) == ("over", "on_target", "over")
+    same(after, answer("query", log, "--metric", "listed_outcomes"))
+
+
+def test_questions_of_ones_own(experiment):
+    log = trivela.Log(experiment)
+    table = log.query("SELECT policy, count(*) AS n, NULL AS nobody, 0.25 AS quarter FROM counted_kicks GROUP BY policy")
+    assert table.n.dtype == "int64" and table.quarter.tolist() == [0.25] * len(table) and table.nobody.isna().all()
+    assert len(log.query("SELECT * FROM kick_decisions WHERE 0")) == 0
+    assert list(log.query("SELECT seq, fire FROM kick_decisions WHERE 0").columns) == ["seq", "fire"]
+    with pytest.raises(ValueError, match="a log is only read"):
+        log.query("DROP TABLE referee")
+    with pytest.raises(ValueError, match="there is no metric 'goals'"):
+        log.metric("goals")
+
+
+def test_a_file_that_is_no_log_is_refused_in_the_programs_words(tmp_path):
+    with pytest.raises(FileNotFoundError) as missing:
+        trivela.Log(tmp_path / "no.db")
+    assert str(missing.value) == refusal("query", tmp_path / "no.db", "SELECT 1")
+    (tmp_path / "text.db").write_text("no log\n" * 100)
+    with pytest.raises(ValueError) as wrong:
+        trivela.Log(tmp_path / "text.db")
+    assert str(wrong.value) == refusal("query", tmp_path / "text.db", "SELECT 1")
+
+
+def test_arguments_that_make_no_sense_are_refused(experiment):
+    with pytest.raises(ValueError, match="outcome: 'said' is neither observed nor truth"):
+        trivela.compare(experiment, outcome="said")
+    for word, words in ((dict(baseline="nobody"), ("--baseline", "nobody")), (dict(by="colour"), ("--by", "colour"))):
+        with pytest.raises(ValueError) as wrong:
+            trivela.compare(experiment, **word)
+        assert "--" + str(wrong.value) == refusal("compare", experiment, *words)
+    with pytest.raises(ValueError, match="design x: expected one of"):
+        trivela.compare(experiment, design="x")
+    with pytest.raises(ValueError, match="compare needs match logs"):
+        trivela.compare()
+
+
+def test_numbers_of_a_frame_are_numbers(experiment):
+    kicks = trivela.Log(experiment).kicks()
+    assert numpy.isfinite(kicks[["distance_m", "power"]].to_numpy()).all()
