@@ -6,15 +6,16 @@ of 0 faces the goal and grows counter-clockwise. ValueError: an argument or a fi
 RuntimeError: anything else that went wrong. Each says in a sentence what is wrong.
 """
 from . import stats
-from ._trivela import Flight, Goal, Robot, configuration_folder
+from ._trivela import Cycle, Flight, Goal, Output, Robot, configuration_folder
 from ._trivela import version as __version__
 from .calibration import TableFit, fit_table, lobs
 from .comparison import Result, compare, compare_counts, report
 from .kicks import OUTCOMES, align, judge, judge_probabilities, predict, solve
 from .log import Log
+from .policy import register_policy
 from .simulation import simulate
 
 __all__ = [
-    "OUTCOMES", "Flight", "Goal", "Log", "Result", "Robot", "TableFit", "__version__", "align", "compare", "compare_counts",
-    "configuration_folder", "fit_table", "judge", "judge_probabilities", "lobs", "predict", "report", "simulate", "solve", "stats",
+    "OUTCOMES", "Cycle", "Flight", "Goal", "Log", "Output", "Result", "Robot", "TableFit", "__version__", "align", "compare", "compare_counts",
+    "configuration_folder", "fit_table", "judge", "judge_probabilities", "lobs", "predict", "register_policy", "report", "simulate", "solve", "stats",
 ]
