@@ -20,7 +20,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def documents(root):
     """Every document whose commands are promises: all but the history."""
-    return [root / "README.md", root / "CONTRIBUTING.md", root / "idl/README.md", *sorted((root / "docs").glob("**/*.md"))]
+    named = [root / name for name in ("README.md", "CONTRIBUTING.md", "idl/README.md", "log/schema/README.md")]
+    return [*named, *sorted((root / "docs").glob("**/*.md")), *sorted((root / "tests/experiment").glob("*.md"))]
 
 
 def main():
