@@ -107,6 +107,19 @@ void settle(Settings& settings, const std::string& source) {
   read_learned_model(settings, source);
 }
 
+bool in_charge(const KickDecision& settings, kicking::PolicyName policy) {
+  const auto names = [&](const std::vector<kicking::PolicyName>& some) {
+    return std::ranges::find(some, policy) != some.end();
+  };
+  return names(settings.policy_by_half) || names(settings.policy_by_robot) || names(settings.random);
+}
+
+/// Whether the values of the policy at this place behind the rows are the usual ones.
+bool is_usual(std::size_t place, const std::vector<double>& values) {
+  const auto settings = kicking::policies()[kicking::kPolicyCount + place]->settings();
+  return std::ranges::equal(values, settings, {}, {}, &kicking::PolicySetting::usual);
+}
+
 /// What is wrong with one of the lines, which stands in the message: the number of the line in itself says nothing.
 std::string sentence_on_line(const std::string& what, const std::vector<std::string>& lines,
                              const std::string& called) {
@@ -176,7 +189,18 @@ void override_settings(Settings& settings, const std::vector<std::string>& lines
   settle(settings, "the settings");
 }
 
-std::string to_toml_text(const Settings& settings) { return to_toml(settings); }
+std::string to_toml_text(const Settings& settings) {
+  Settings said = settings;
+  kicking::complete_own_settings(said.policy.own);
+  std::string without_settings;
+  for (std::size_t i = 0; i < said.policy.own.size(); ++i) {
+    const auto name = static_cast<kicking::PolicyName>(kicking::kPolicyCount + i);
+    if (!in_charge(settings.kick_decision, name) && is_usual(i, said.policy.own[i])) said.policy.own[i].clear();
+    if (in_charge(settings.kick_decision, name) && said.policy.own[i].empty())
+      without_settings += fmt::format("\n[policy.own.{}]\n", kicking::name(name));
+  }
+  return to_toml(said) + without_settings;
+}
 
 std::vector<std::string> decision_path(const Settings& settings) {
   if (settings.run.one_process) return {"chain"};
@@ -185,7 +209,9 @@ std::vector<std::string> decision_path(const Settings& settings) {
 
 std::map<std::string, std::string> setting_values(const Settings& settings) {
   std::map<std::string, std::string> values;
-  std::istringstream lines{to_toml_text(settings)};
+  Settings all = settings;
+  kicking::complete_own_settings(all.policy.own);
+  std::istringstream lines{to_toml(all)};
   std::string section;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with('[')) section = line.substr(1, line.size() - 2) + '.';

@@ -226,7 +226,7 @@ void check_policies(const KickDecision& settings, const std::string& source);
 void override_settings(Settings& settings, const std::vector<std::string>& lines,
                        const std::string& called = "settings");
 
-/// Every setting as TOML.
+/// Every setting as TOML; of policies from outside those that are in charge, and what is not usual of others.
 std::string to_toml_text(const Settings& settings);
 
 /// The processes of a robot's decision path, without "trivela-": odometry, world_state and kick_decision, or chain.

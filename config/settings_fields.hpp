@@ -170,12 +170,12 @@ struct OwnSettings {
 
 template <class V>
 void fields(V& v, OwnSettings& own) {
-  if constexpr (requires { v.name_section(); }) v.name_section();
   for (std::size_t i = 0; i < own.values.size(); ++i)
     v(own.policy.settings()[i].key, own.values[i], own.policy.settings()[i].range);
 }
 
-/// [policy.own]: makes the policies known that a file has and this program has not.
+/// [policy.own]: reading it makes the policies known that a file has and this program has not. Written is what stands in
+/// `values`.
 struct OwnPolicies {
   std::vector<std::vector<double>>& values;
 };
@@ -184,8 +184,8 @@ template <class V>
 void fields(V& v, OwnPolicies& own) {
   if constexpr (requires { v.tables(); }) {
     for (const auto& [name, keys] : v.tables()) v.require(name, [&] { declare_policy(name, keys); });
+    complete_own_settings(own.values);
   }
-  complete_own_settings(own.values);
   for (std::size_t i = 0; i < own.values.size(); ++i) {
     OwnSettings settings{*policies()[kPolicyCount + i], own.values[i]};
     v(settings.policy.facts().name, settings);

@@ -174,7 +174,8 @@ void add_policies(py::module_& module) {
     return std::pair{[part](const Output& output) { return output.drive.*part; },
                      [part](Output& output, double value) { output.drive.*part = value; }};
   };
-  py::class_<Output> output(module, "Output");
+  py::class_<Output> output(module, "Output",
+                            "What a policy decides in a cycle: reason, power, drive, and the numbers behind them.");
   output.def(py::init<>())
       .def_property(
           "reason", [](const Output& out) { return name(out.reason); },
@@ -205,7 +206,8 @@ void add_policies(py::module_& module) {
     output.def_property(key, get, set);
   }
 
-  py::class_<Cycle, std::shared_ptr<Cycle>> cycle(module, "Cycle");
+  py::class_<Cycle, std::shared_ptr<Cycle>> cycle(
+      module, "Cycle", "What a robot knows in one cycle, and what the built-in policies would do in it.");
   cycle.def("stopped", [](const Cycle& c) { return c.ask(&evaluate_stopped, &PythonMemory::stopped); })
       .def("moving", [](const Cycle& c) { return c.ask(&evaluate_moving, &PythonMemory::moving); })
       .def("predictive", [](const Cycle& c) { return c.ask(&evaluate_predictive, &PythonMemory::predictive); })

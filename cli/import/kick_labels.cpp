@@ -51,7 +51,9 @@ double video_time_s(const std::string& text) {
 }
 
 msg::Policy policy_of(const std::string& name) {
-  const auto names = kicking::policies_where([](const auto& policy) { return policy.plays(); });
+  std::vector<std::string_view> names;
+  for (const kicking::PolicyFacts& policy : kicking::kPolicyFacts)
+    if (policy.plays()) names.emplace_back(policy.name);
   const auto policy = bus::from_label<msg::Policy>(name);
   if (!policy || std::ranges::find(names, name) == names.end())
     throw CellError("policy", name, fmt::format("is none of {}", fmt::join(names, ", ")));

@@ -83,6 +83,8 @@ std::string to_short_toml_text(const Settings& settings, const std::vector<std::
   std::string text, section, shown;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with('[')) section = line.substr(1, line.size() - 2);
+    const bool own = section.starts_with("policy.own.");  // makes a policy's name known
+    if (own && section != shown) text += fmt::format("\n[{}]\n", shown = section);
     const auto equals = line.find(" = ");
     if (line.starts_with('[') || equals == std::string::npos) continue;
     const bool of_field = section == "goal" || section == "field" || section == "rules";
@@ -90,7 +92,7 @@ std::string to_short_toml_text(const Settings& settings, const std::vector<std::
     const std::string key = section + "." + line.substr(0, equals);
     const auto same = defaults.find(key);
     const bool differs = same == defaults.end() || same->second != line.substr(equals + 3);
-    if (!differs && std::ranges::find(always, key) == always.end()) continue;
+    if (!differs && !own && std::ranges::find(always, key) == always.end()) continue;
     if (section != shown) text += fmt::format("\n[{}]\n", section);
     shown = section;
     text += line + "\n";

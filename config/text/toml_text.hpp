@@ -72,13 +72,10 @@ class TableText {
     fields(inner, section);
     tables_ += inner.text();
   }
-  /// Its heading is written where it has no key, too.
-  void name_section() { named_ = true; }
 
   /// The table with its heading and its sub-tables.
   std::string text() const {
-    const bool bare = section_.empty() || (keys_.empty() && !named_);
-    const std::string heading = bare ? "" : fmt::format("\n[{}]\n", section_);
+    const std::string heading = section_.empty() || keys_.empty() ? "" : fmt::format("\n[{}]\n", section_);
     return heading + keys_ + tables_;
   }
 
@@ -116,7 +113,6 @@ class TableText {
   std::string section_;
   std::string keys_;
   std::string tables_;
-  bool named_ = false;
 };
 
 /// The whole struct as TOML.

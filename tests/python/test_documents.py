@@ -57,7 +57,7 @@ def test_from_an_idea_to_an_ab_takes_forty_lines(folder):
     few = text.replace("matches=200", "matches=6")
     assert few != text
     (folder / "ab.py").write_text(few)
-    assert "bold" in run("ab.py", folder)
+    assert "patient 3.5: " in run("ab.py", folder)
     assert is_figure(folder / "ab.png")
 
 
