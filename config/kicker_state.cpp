@@ -117,4 +117,14 @@ void save_kicker_state(const std::filesystem::path& path, const kicking::KickerE
   if (failed) throw Error{fmt::format("cannot write {}: {}", path.string(), failed.message())};
 }
 
+std::filesystem::path set_kicker_state_aside(const std::filesystem::path& path) {
+  std::filesystem::path aside = path.string() + ".refused";
+  for (int n = 2; std::filesystem::exists(aside); ++n) aside = fmt::format("{}.refused-{}", path.string(), n);
+  std::error_code wrong;
+  std::filesystem::rename(path, aside, wrong);
+  if (wrong)
+    throw Error{fmt::format("{}: cannot be renamed to {}: {}", path.string(), aside.string(), wrong.message())};
+  return aside;
+}
+
 }  // namespace trivela::config

@@ -22,4 +22,8 @@ std::optional<kicking::KickerEstimate> load_kicker_state(const std::filesystem::
 void save_kicker_state(const std::filesystem::path& path, const kicking::KickerEstimate& estimate, const Robot& robot,
                        std::uint32_t robot_id, std::chrono::system_clock::time_point now);
 
+/// Renames a file that was refused, since the next estimate is written to its place: to `path`.refused, or the first of
+/// `path`.refused-2, -3 and so on that is not there. Returns the new name. Throws Error naming the file.
+std::filesystem::path set_kicker_state_aside(const std::filesystem::path& path);
+
 }  // namespace trivela::config

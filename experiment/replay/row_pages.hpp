@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "idl/messages.hpp"
 #include "idl/meta.hpp"
 #include "idl/none.hpp"
 #include "log/read/reader.hpp"

@@ -46,6 +46,18 @@ void ShotObserverNode::begin_learning() {
     context_.logger->info("self-calibration begins with {}", earlier ? settings.state_file : "the robot's file");
   } catch (const config::Error& error) {
     context_.logger->warn("self-calibration begins with the robot's file: {}", error.what());
+    keep_refused_state();
+  }
+}
+
+/// It may be the only one of another robot.
+void ShotObserverNode::keep_refused_state() {
+  const std::string& file = context_.settings.self_calibration.state_file;
+  try {
+    context_.logger->warn("{} is now {}", file, config::set_kicker_state_aside(file).string());
+  } catch (const config::Error& error) {
+    context_.logger->warn("self-calibration is not kept: {}", error.what());
+    keeps_ = false;
   }
 }
 
@@ -96,7 +108,7 @@ void ShotObserverNode::say(const msg::KickerEstimate& estimate) {
 /// For the next match. A disk that is full ends no match.
 void ShotObserverNode::keep(const msg::KickerEstimate& estimate) {
   const std::string& file = context_.settings.self_calibration.state_file;
-  if (file.empty()) return;
+  if (file.empty() || !keeps_) return;
   try {
     config::save_kicker_state(file, robot::estimate_of(estimate), context_.robot, context_.settings.run.robot_id,
                               std::chrono::system_clock::now());

@@ -24,6 +24,7 @@ class ShotObserverNode {
   void publish(std::vector<msg::KickOutcome> settled, std::int64_t t_ns);
   void begin_learning();
   void say(const msg::KickerEstimate& estimate);
+  void keep_refused_state();
   void keep(const msg::KickerEstimate& estimate);
 
   NodeContext& context_;
@@ -38,6 +39,7 @@ class ShotObserverNode {
   FirstCycle first_;
   std::uint64_t seq_ = 0;
   bool not_kept_said_ = false;
+  bool keeps_ = true;  // estimates in the state file
 };
 
 }  // namespace trivela::nodes

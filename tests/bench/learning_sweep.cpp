@@ -185,7 +185,9 @@ void jumps(const Plan& plan, const std::vector<config::Robot>& files, double sha
         after.push_back(static_cast<double>(kick - kAfter + 1));
         found = true;
       }
-      never += !found && kicks >= kAfter + 10;
+      if (found || kicks < kAfter + 10) continue;
+      after.push_back(HUGE_VAL);
+      ++never;
     }
   }
   if (after.empty()) return;
@@ -193,8 +195,7 @@ void jumps(const Plan& plan, const std::vector<config::Robot>& files, double sha
   fmt::print(
       "\na fall of 5 % after {} kicks: {:.0f} % of it corrected {:.0f} kicks later at the median, {:.0f} at the 90 % "
       "point; never in {} of {} matches\n",
-      kAfter, 100.0 * share, after[after.size() / 2], after[after.size() * 9 / 10], never,
-      after.size() + static_cast<std::size_t>(never));
+      kAfter, 100.0 * share, after[after.size() / 2], after[after.size() * 9 / 10], never, after.size());
 }
 
 }  // namespace

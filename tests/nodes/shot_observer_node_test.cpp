@@ -172,6 +172,11 @@ TEST_F(LearningObserverTest, AStateOfAnotherRobotIsRefusedAndTheMatchGoesOn) {
   start();
   EXPECT_EQ(estimate.nth(1).speed_ln, 0.0);
   EXPECT_TRUE(log_lines->wait_for("self-calibration begins with the robot's file"));
+  EXPECT_TRUE(log_lines->wait_for("kicker.toml is now "));
+  std::ifstream aside(folder / "kicker.toml.refused");
+  std::string line;
+  ASSERT_TRUE(std::getline(aside, line)) << "no estimate of this robot is written over another one's";
+  EXPECT_EQ(line, "robot = \"somebody\"");
 }
 
 TEST_F(ShotObserverNodeTest, AMissIsNotOnTarget) {
