@@ -174,8 +174,8 @@ void fields(V& v, OwnSettings& own) {
     v(own.policy.settings()[i].key, own.values[i], own.policy.settings()[i].range);
 }
 
-/// [policy.own]: reading it makes the policies known that a file has and this program has not. Written is what stands in
-/// `values`.
+/// [policy.own]: reading it makes the policies known that a file has and this program has not. Written is what stands
+/// in `values`.
 struct OwnPolicies {
   std::vector<std::vector<double>>& values;
 };
@@ -183,7 +183,7 @@ struct OwnPolicies {
 template <class V>
 void fields(V& v, OwnPolicies& own) {
   if constexpr (requires { v.tables(); }) {
-    for (const auto& [name, keys] : v.tables()) v.require(name, [&] { declare_policy(name, keys); });
+    for (const auto& table : v.tables()) v.require(table.first, [&] { declare_policy(table.first, table.second); });
     complete_own_settings(own.values);
   }
   for (std::size_t i = 0; i < own.values.size(); ++i) {

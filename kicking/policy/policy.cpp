@@ -50,6 +50,14 @@ Twist within_reach(const PolicyConfig& config, const RobotModel& robot, const Po
   return carry_reach(config, robot, memory).keep(drive, {pose.x_m, pose.y_m}, forward);
 }
 
+/// A kick that no kicker has is none, and a command that is no number stops the robot.
+void refuse_nonsense(const RobotModel& robot, PolicyOutput& output) {
+  if (output.reason == Reason::kFire && (!output.power || output.kick_kind >= robot.kinds()))
+    output.reason = Reason::kOutOfRange;
+  if (output.lever_kind >= robot.kinds()) output.lever_kind = 0;
+  if (!std::isfinite(output.drive.vx_mps + output.drive.vy_mps + output.drive.omega_radps)) output.drive = {};
+}
+
 /// The policy's own rule, within what holds for every policy.
 PolicyOutput ask(const Policy& policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                  const PolicyInput& input, PossessionMemory& memory) {
@@ -65,6 +73,7 @@ PolicyOutput ask(const Policy& policy, const PolicyConfig& config, const RobotMo
   if (drive && pending) return hold(config, goal, Reason::kOrderPending, memory.pending_command());
   if (!drive && config.rules.carry_limit_m > 0.0 && !memory.taken_m) memory.taken_m = held_ball(input.pose, robot);
   PolicyOutput output = policy.ask(config, robot, goal, input, memory);
+  if (policy.place() != kNoPlace) refuse_nonsense(robot, output);
   if (!drive) {
     if (memory.taken_m) output.drive = within_reach(config, robot, input.pose, memory, output.drive);
     if (!may_shoot(config, robot, input, output)) output.reason = Reason::kOwnHalf;

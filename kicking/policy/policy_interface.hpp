@@ -40,6 +40,8 @@ struct PolicySetting {
   Range range{};
 };
 
+inline constexpr std::size_t kNoPlace = static_cast<std::size_t>(-1);
+
 /// A policy: its name, its settings and its rule. It knows nothing but its arguments and its memory, and is asked in
 /// each cycle in which something may be decided. A policy of your own derives from PolicyOf.
 class Policy {
@@ -50,6 +52,8 @@ class Policy {
 
   const PolicyFacts& facts() const { return facts_; }
   std::span<const PolicySetting> settings() const { return settings_; }
+  /// Of its settings in PolicyConfig::own; kNoPlace: it is a row of kPolicyRows.
+  std::size_t place() const { return place_; }
 
   virtual std::unique_ptr<PossessionMemory> new_memory() const = 0;
   virtual std::unique_ptr<PossessionMemory> copy(const PossessionMemory& memory) const = 0;
@@ -92,7 +96,7 @@ class Policy {
   std::string name_;
   PolicyFacts facts_;
   std::vector<PolicySetting> settings_;
-  std::size_t place_ = static_cast<std::size_t>(-1);  // in PolicyConfig::own
+  std::size_t place_ = kNoPlace;  // in PolicyConfig::own
 };
 
 /// A policy whose memory is of this type: derived from PossessionMemory, and copied like a value.

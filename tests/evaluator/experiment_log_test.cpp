@@ -29,10 +29,11 @@ std::string verdict_on(const std::string& policy) {
   return said;
 }
 
-TEST(ExperimentLog, TakesNoLabelThatTheSchemaDoesNotHave) {
+TEST(ExperimentLog, TakesNoNameThatNoPolicyCanHave) {
   EXPECT_EQ(verdict_on("moving"), "");
-  EXPECT_THAT(verdict_on("wild"), testing::AllOf(testing::HasSubstr("experiment_log_wild"),
-                                                 testing::HasSubstr("CHECK constraint failed: policy = 'stopped'")));
+  EXPECT_EQ(verdict_on("of_another_program"), "");
+  EXPECT_THAT(verdict_on("Wild"), testing::AllOf(testing::HasSubstr("experiment_log_Wild"),
+                                                 testing::HasSubstr("CHECK constraint failed: policy GLOB")));
 }
 
 }  // namespace

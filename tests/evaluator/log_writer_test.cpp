@@ -290,7 +290,7 @@ TEST_F(LogWriter, AnEmptyFileBecomesALog) {
 TEST_F(LogWriter, ALogThatCannotBeMadeIsNamedAndLeavesNoFile) {
   EXPECT_THROW(Writer(directory_ / "missing" / "match.db", session(), options()), std::runtime_error);
   auto wrong = session();
-  wrong.policies = {{1, "lucky"}};
+  wrong.policies = {{1, "no policy's name"}};
   EXPECT_THROW(Writer(path(), wrong, options()), std::runtime_error);
   EXPECT_TRUE(std::filesystem::is_empty(directory_));
 }

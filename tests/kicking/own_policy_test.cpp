@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "kicking/policy/policy.hpp"
@@ -86,6 +88,40 @@ TEST(OwnPolicy, FiresWithinWhatHoldsForEveryPolicy) {
   charging.kicker_ready = false;
   EXPECT_EQ(evaluate(eager(), {}, {}, {}, charging, memory).reason, Reason::kKickerNotReady);
   EXPECT_EQ(memory.as<CountingMemory>().cycles, 1) << "a new possession starts it afresh";
+}
+
+/// Fires with what its test gave it.
+struct Nonsense final : PolicyOf<PossessionMemory> {
+  Nonsense() : PolicyOf("nonsense") {}
+  PolicyOutput evaluate(const PolicyConfig&, const RobotModel&, const Goal&, const PolicyInput&,
+                        PossessionMemory&) const override {
+    return given;
+  }
+  inline static PolicyOutput given;
+};
+
+TEST(OwnPolicy, ThatReturnsNonsenseNeitherKicksNorDrives) {
+  const PolicyName nonsense = register_policy(std::make_unique<Nonsense>());
+  const auto said = [&](auto&& spoil) {
+    Nonsense::given = {};
+    Nonsense::given.reason = Reason::kFire;
+    Nonsense::given.power = 20.0;
+    Nonsense::given.drive.vy_mps = 1.0;
+    spoil(Nonsense::given);
+    PolicyMemory memory;
+    return evaluate(nonsense, {}, {}, {}, ready(), memory);
+  };
+  EXPECT_TRUE(said([](PolicyOutput&) {}).fire);
+  EXPECT_EQ(said([](PolicyOutput& out) { out.power = std::nullopt; }).reason, Reason::kOutOfRange);
+  EXPECT_EQ(said([](PolicyOutput& out) { out.power = std::numeric_limits<double>::infinity(); }).reason,
+            Reason::kOutOfRange);
+  EXPECT_EQ(said([](PolicyOutput& out) { out.kick_kind = 200; }).reason, Reason::kOutOfRange);
+  EXPECT_EQ(said([](PolicyOutput& out) { out.lever_kind = 200; }).lever_kind, 0);
+  for (double Twist::*part : {&Twist::vx_mps, &Twist::vy_mps, &Twist::omega_radps}) {
+    const PolicyOutput output = said([&](PolicyOutput& out) { out.drive.*part = NAN; });
+    EXPECT_EQ(output.drive.vy_mps, 0.0);
+    EXPECT_TRUE(output.fire);
+  }
 }
 
 TEST(OwnPolicy, AMemoryIsCopiedWithWhatItHolds) {

@@ -86,9 +86,10 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"pages/monitor", {"monitor/", "robot/watch/"}},
 };
 
-const std::vector<std::string> kModules{
-    "kicking", "idl",   "log",         "sim",        "config", "evaluator", "bus",     "hal",      "emulators", "robot",
-    "monitor", "nodes", "calibration", "experiment", "pages",  "cli",       "include", "examples", "security", "python"};
+const std::vector<std::string> kModules{"kicking",   "idl",     "log",         "sim",        "config",
+                                        "evaluator", "bus",     "hal",         "emulators",  "robot",
+                                        "monitor",   "nodes",   "calibration", "experiment", "pages",
+                                        "cli",       "include", "examples",    "security",   "python"};
 
 std::string module_of(const std::string& path) {
   const auto slash = path.find('/');
