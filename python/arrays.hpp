@@ -68,6 +68,7 @@ inline void require_up_to(const char* name, std::span<const double> values, doub
 
 /// Each adds its functions to the module.
 void add_kicks(py::module_& module);
+void add_judgement(py::module_& module);
 void add_policies(py::module_& module);
 void add_simulate(py::module_& module);
 void add_logs(py::module_& module);

@@ -11,7 +11,6 @@
 #include "kicking/alignment/release_predictor.hpp"
 #include "kicking/ballistics/drag.hpp"
 #include "kicking/ballistics/kick_speeds.hpp"
-#include "kicking/outcome/outcome.hpp"
 #include "python/arrays.hpp"
 
 namespace trivela::python {
@@ -166,32 +165,6 @@ py::dict predict(const Numbers& x_m, const Numbers& y_m, const Numbers& heading_
   return columns;
 }
 
-py::array judge(const Numbers& x_cross_m, const Numbers& z_cross_m, const kicking::Goal& goal, double ball_radius_m) {
-  const auto x = span_of(x_cross_m), z = span_of(z_cross_m);
-  std::vector<std::int8_t> outcomes(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
-    outcomes[i] = static_cast<std::int8_t>(kicking::classify(x[i], z[i], goal, {.radius_m = ball_radius_m}));
-  return array_of(std::move(outcomes));
-}
-
-py::dict judge_probabilities(const Numbers& x_cross_m, const Numbers& sd_x_m, const Numbers& z_cross_m,
-                             const Numbers& sd_z_m, const kicking::Goal& goal, double ball_radius_m) {
-  const auto x = span_of(x_cross_m), sd_x = span_of(sd_x_m), z = span_of(z_cross_m), sd_z = span_of(sd_z_m);
-  require_finite("x_cross_m", x);
-  require_finite("z_cross_m", z);
-  require_positive("sd_x_m", sd_x);
-  require_positive("sd_z_m", sd_z);
-  constexpr std::size_t kinds = std::tuple_size_v<kicking::OutcomeProbabilities>;
-  std::vector<std::vector<double>> p(kinds, std::vector<double>(x.size()));
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const auto row = kicking::crossing_probabilities(x[i], sd_x[i], z[i], sd_z[i], goal, {.radius_m = ball_radius_m});
-    for (std::size_t kind = 0; kind < kinds; ++kind) p[kind][i] = row[kind];
-  }
-  py::dict columns;
-  for (std::size_t kind = 0; kind < kinds; ++kind) columns[kicking::kOutcomeNames[kind]] = array_of(std::move(p[kind]));
-  return columns;
-}
-
 template <double kicking::SetPoint::*column>
 py::array_t<double> set_points(const config::Robot& robot) {
   std::vector<double> values;
@@ -203,25 +176,11 @@ py::array_t<double> set_points(const config::Robot& robot) {
 
 void add_kicks(py::module_& module) {
   const kicking::Ball ball;
-  module.attr("outcomes") = py::tuple(py::cast(kicking::kOutcomeNames));
   py::class_<Flight>(module, "Flight", "What a flight depends on beside its kick: gravity, the ball and the air.")
       .def(py::init<double, double, double, double>(), py::kw_only(), py::arg("gravity_mps2") = kicking::kGravity_mps2,
            py::arg("ball_radius_m") = ball.radius_m, py::arg("ball_mass_kg") = ball.mass_kg,
            py::arg("air_density_kgpm3") = kicking::Air{}.density_kgpm3)
       .def_readonly("ball_radius_m", &Flight::ball_radius_m);
-  const kicking::Goal goal;
-  py::class_<kicking::Goal>(
-      module, "Goal",
-      "The opponents' goal: its line in the field frame, inner half-width, height, width of the frame [m].")
-      .def(py::init([](double y, double half_width, double height, double post) {
-             return kicking::Goal{y, half_width, height, post};
-           }),
-           py::kw_only(), py::arg("y_m") = goal.y_m, py::arg("half_width_m") = goal.half_width_m,
-           py::arg("height_m") = goal.height_m, py::arg("post_width_m") = goal.post_width_m)
-      .def_readonly("y_m", &kicking::Goal::y_m)
-      .def_readonly("half_width_m", &kicking::Goal::half_width_m)
-      .def_readonly("height_m", &kicking::Goal::height_m)
-      .def_readonly("post_width_m", &kicking::Goal::post_width_m);
   py::class_<config::Robot>(
       module, "Robot",
       "A robot's file, such as config/robots/cambada_1.toml. Raises ValueError naming file, line, key and value.")
@@ -236,8 +195,6 @@ void add_kicks(py::module_& module) {
   module.def("solve", solve);
   module.def("align", align);
   module.def("predict", predict);
-  module.def("judge", judge);
-  module.def("judge_probabilities", judge_probabilities);
 }
 
 }  // namespace trivela::python

@@ -55,6 +55,7 @@ PYBIND11_MODULE(_trivela, module) {
       "configuration_folder", [] { return config::folder().string(); },
       "The folder of the shipped configuration: default.toml, robots, scenarios, arms.");
   python::add_kicks(module);
+  python::add_judgement(module);
   python::add_policies(module);
   python::add_simulate(module);
   python::add_logs(module);

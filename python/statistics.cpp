@@ -11,6 +11,7 @@
 #include "evaluator/stats/counts/interval.hpp"
 #include "evaluator/stats/counts/robustness.hpp"
 #include "evaluator/stats/paired.hpp"
+#include "evaluator/stats/poisson.hpp"
 #include "evaluator/stats/test_plan.hpp"
 #include "python/arrays.hpp"
 
@@ -100,6 +101,13 @@ stats::PairedCounts pairs_of(std::int64_t both, std::int64_t newer_only, std::in
   return {both, newer_only, older_only, neither};
 }
 
+stats::Rate rate_of(std::int64_t events, double minutes) {
+  if (events < 0) throw py::value_error("a count cannot be negative");
+  if (!(minutes > 0.0 && std::isfinite(minutes)))
+    throw py::value_error(fmt::format("minutes {:g}: is not above 0", minutes));
+  return {events, minutes};
+}
+
 }  // namespace
 
 void add_statistics(py::module_& module) {
@@ -150,6 +158,19 @@ void add_statistics(py::module_& module) {
       "Kicks of each policy with which the two-sided test of level alpha finds p1 against p2 with this power (R's\n"
       "power.prop.test), not rounded; None: p1 == p2.",
       py::arg("p1"), py::arg("p2"), py::arg("power") = stats::kPower, py::arg("alpha") = 0.05);
+  module.def("rate_interval", [](std::int64_t events, double minutes, double confidence) {
+    require_confidence(confidence);
+    return cells(stats::rate_interval(rate_of(events, minutes), confidence));
+  });
+  module.def("rate_ratio",
+             [](std::int64_t older_events, double older_minutes, std::int64_t newer_events, double newer_minutes,
+                double confidence) -> std::optional<Cells<4>> {
+               require_confidence(confidence);
+               const auto ratio = stats::rate_ratio(rate_of(older_events, older_minutes),
+                                                    rate_of(newer_events, newer_minutes), confidence);
+               if (!ratio) return std::nullopt;
+               return Cells<4>{ratio->value, ratio->ci.lo, ratio->ci.hi, ratio->p};
+             });
   module.def("holm", [](const Flat<double>& p) {
     require("p", span_of(p), "is not from 0 to 1", [](double x) { return x >= 0.0 && x <= 1.0; });
     return array_of(stats::holm(span_of(p)));

@@ -10,6 +10,12 @@ from . import _trivela
 from ._arrays import frame
 
 
+_OUTCOMES = [
+    "session_id", "robot_id", "kick_id", "t_ns", "half", "possession_id", "policy", "outcome", "observed_outcome", "hand_outcome", "no_goal", "settled_t_ns",
+    "x_cross_m", "z_cross_m", "sd_cross_m", "exit_speed_mps", "observations", "observed_p_on_target", "observed_p_saved", "bounced", "saved",
+    "truth_outcome", "truth_x_cross_m", "truth_z_cross_m", "truth_margin_m", "truth_bounced", "truth_saved",
+]
+
 
 class Log:
     """One match log, or several whose kicks are taken together: what two recorders have of one play counts once, as in
@@ -57,7 +63,7 @@ class Log:
         """What became of the same kicks: `outcome` counts, `observed_outcome` is the robot's, `hand_outcome` a person's, `truth_outcome`
         the simulator's; crossings, their standard deviation, probabilities, bounces and saves.
         """
-        return self.metric("listed_outcomes")
+        return self.kicks()[(["log"] if len(self.paths) > 1 else []) + _OUTCOMES]
 
     def decisions(self) -> pandas.DataFrame:
         """Every recorded decision to fire or to hold, with every number behind it (table kick_decisions), once each: of several recordings

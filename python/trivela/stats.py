@@ -19,7 +19,7 @@ Array = numpy.ndarray[Any, Any]
 __all__ = [
     "agresti_caffo", "always_valid_p", "boschloo_one_sided", "boschloo_two_sided", "clopper_pearson", "confidence_sequence", "difference_sequence",
     "expected_loss_of_newer", "fisher_one_sided", "fisher_two_sided", "holm", "kicks_per_policy", "mcnemar", "newcombe", "odds_ratio", "p_newer_better",
-    "paired_newcombe", "posterior_difference", "risk_ratio", "wilson",
+    "paired_newcombe", "posterior_difference", "rate_interval", "rate_ratio", "risk_ratio", "wilson",
 ]
 
 
@@ -114,6 +114,20 @@ def paired_newcombe(both: int, newer_only: int, older_only: int, neither: int, c
     """Newcombe's interval of the difference on the same opportunities (1998b, method 10)."""
     low, high = _trivela.paired_newcombe(both, newer_only, older_only, neither, confidence)
     return low, high
+
+
+def rate_interval(events: int, minutes: float, confidence: float = 0.95) -> tuple[float, float]:
+    """Exact interval of events a minute (Garwood 1936)."""
+    low, high = _trivela.rate_interval(events, minutes, confidence)
+    return low, high
+
+
+def rate_ratio(
+    older_events: int, older_minutes: float, newer_events: int, newer_minutes: float, confidence: float = 0.95
+) -> tuple[float, float, float, float] | None:
+    """Ratio newer / older of events a minute: value, low, high, and p that they are equal (R's poisson.test). None: neither has an event."""
+    ratio = _trivela.rate_ratio(older_events, older_minutes, newer_events, newer_minutes, confidence)
+    return None if ratio is None else (ratio[0], ratio[1], ratio[2], ratio[3])
 
 
 def holm(p: ArrayLike) -> Array:

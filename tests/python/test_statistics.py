@@ -25,6 +25,15 @@ def test_kicks_per_policy_are_those_of_rs_power_prop_test():
     assert stats.kicks_per_policy(0.5, 0.5) is None
 
 
+def test_rates_are_those_of_rs_poisson_test():
+    assert stats.rate_ratio(34, 180.0, 100, 300.0) == pytest.approx((1.764706, 1.185109, 2.686664, 0.004115647), abs=5e-7)
+    assert stats.rate_ratio(0, 10.0, 0, 10.0) is None
+    low, high = stats.rate_interval(34, 180.0)
+    assert low < 34 / 180 < high
+    with pytest.raises(ValueError, match="minutes 0: is not above 0"):
+        stats.rate_interval(3, 0.0)
+
+
 def test_holm_is_rs_p_adjust():
     numpy.testing.assert_allclose(stats.holm([[0.01, 0.04], [0.03, 0.005]]), [[0.03, 0.06], [0.06, 0.02]], rtol=1e-12)
 
