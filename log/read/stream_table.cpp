@@ -35,7 +35,7 @@ StreamColumn column_of(const std::string& create, const std::string& name, const
   if (type == "REAL") column.kind = CellKind::kNumber;
   if (type == "INTEGER" && rule.find("IN (0, 1)") != std::string::npos) column.kind = CellKind::kTruth;
   if (type != "TEXT") return column;
-  static const std::regex label("'([^']*)'");
+  static const std::regex label("= '([^']*)'");
   for (std::sregex_iterator it(rule.begin(), rule.end(), label), end; it != end; ++it)
     column.labels.push_back((*it)[1]);
   column.kind = column.labels.empty() ? CellKind::kText : CellKind::kLabel;
