@@ -23,7 +23,6 @@ using kicking::LearnedModel;
 using Kicks = std::vector<PredictedKick>;
 
 constexpr std::size_t kFewestMatches = 10;
-constexpr std::size_t kFewestKicks = 100;  // of the training: ten a coefficient
 constexpr std::size_t kDeciles = 10;
 
 double log_loss(double p, bool on_target) { return -std::log(std::max(1e-12, on_target ? p : 1.0 - p)); }
@@ -185,9 +184,9 @@ LearnedFit fit_learned_model(std::span<const PredictedKick> kicks, const LearnOp
   const std::span<const std::uint32_t> tested_matches = std::span(matches).first(std::min(held_out, matches.size()));
   const std::span<const std::uint32_t> training_matches = std::span(matches).subspan(tested_matches.size());
   const Kicks training = of_matches(kicks, training_matches), tested = of_matches(kicks, tested_matches);
-  if (training.size() < kFewestKicks) {
-    throw std::runtime_error(
-        fmt::format("{} kicks to learn from ({} are held out), need {}", training.size(), tested.size(), kFewestKicks));
+  if (training.size() < options.fewest_kicks) {
+    throw std::runtime_error(fmt::format("{} kicks to learn from ({} are held out), need {}", training.size(),
+                                         tested.size(), options.fewest_kicks));
   }
   if (!has_both_outcomes(training)) {
     throw std::runtime_error(fmt::format("all {} kicks to learn from have the same outcome ({})", training.size(),

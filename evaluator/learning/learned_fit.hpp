@@ -16,7 +16,8 @@ struct LearnOptions {
   double held_out_share = 0.3;  ///< of the matches
   int folds = 5;                ///< of the cross-validation that chooses the ridge, among the other matches
   std::vector<double> ridges{0.1, 1.0, 10.0, 100.0, 1000.0, 10000.0};
-  std::uint64_t seed = 1;  ///< of the draw of matches
+  std::uint64_t seed = 1;          ///< of the draw of matches
+  std::size_t fewest_kicks = 100;  ///< to learn from: ten a coefficient
   /// Told the fits of the cross-validation so far, and of how many; none: nobody asks.
   std::function<void(std::size_t done, std::size_t all)> progress{};
 };

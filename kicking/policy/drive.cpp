@@ -5,10 +5,10 @@
 
 namespace trivela::kicking {
 
-double turn_rate_for(double heading_error_rad, double gain_hz, const PolicyConfig& config) {
+double turn_rate_for(double heading_error_rad, double gain_hz, const PolicyConfig& config, double braking) {
   const double error = std::abs(heading_error_rad);
-  const double braking = std::sqrt(1.5 * config.max_turn_acceleration_radps2 * error);
-  return std::copysign(std::min({gain_hz * error, braking, config.max_turn_rate_radps}), heading_error_rad);
+  const double curve = std::sqrt(2.0 * braking * config.max_turn_acceleration_radps2 * error);
+  return std::copysign(std::min({gain_hz * error, curve, config.max_turn_rate_radps}), heading_error_rad);
 }
 
 Eigen::Vector2d dribble_towards(const Pose& robot, const Eigen::Vector2d& point_m, const PolicyConfig& config,

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "kicking/maybe.hpp"
+#include "kicking/policy/predictive/learned_decision.hpp"
 
 namespace trivela::kicking {
 
@@ -37,6 +38,11 @@ struct LearnedModel {
   Row weights{};
   Row means{};
   Row scales{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+
+  LearnedDecision decision{};  ///< beside that correction
+
+  /// Whether it changes P.
+  bool corrects() const { return intercept != 0.0 || weights != Row{}; }
 
   /// x of a kick; an opponent not seen is as far as the farthest that counts, 6 m.
   static Row row_of(const ShotFeatures& shot);

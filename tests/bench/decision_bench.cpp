@@ -56,7 +56,7 @@ void stopped_kick_decision(benchmark::State& state) { judge_cycles(state, Policy
 BENCHMARK(stopped_kick_decision);
 
 /// Opponents from near to far, watched for a while: what a cycle of play looks like. 1: past a keeper; 2: and with a
-/// lever for flat kicks, and opponents with a place.
+/// lever for flat kicks, and opponents with a place; 3: the same by the policy learned.
 void predictive_kick_decision(benchmark::State& state) {
   auto inputs = situations();
   if (state.range(0) != 0)
@@ -64,7 +64,14 @@ void predictive_kick_decision(benchmark::State& state) {
   std::array<PolicyMemory, 64> watched;
   PolicyConfig config;
   RobotModel robot;
-  if (state.range(0) == 2) {
+  const PolicyName policy = state.range(0) == 3 ? PolicyName::kLearned : PolicyName::kPredictive;
+  if (policy == PolicyName::kLearned) {
+    LearnedDecision& decision = config.learned.emplace().decision;
+    decision.fire_weights.fill(0.01);
+    decision.blocking_ratio = 0.7;
+    decision.style[0] = {.speed_ratio = 1.2, .side_ratio = 2.5};
+  }
+  if (state.range(0) >= 2) {
     config.predictive.opponent_places = true;
     robot.further_kinds.push_back(robot);
     robot.further_kinds.front().exit_angle_rad = radians(6.0);
@@ -80,18 +87,18 @@ void predictive_kick_decision(benchmark::State& state) {
       before.t_ns -= 20'000'000 * cycle;
       before.opponent_distance_m = 0.8 + 0.3 * static_cast<double>(i % 8) + 0.026 * cycle;
       before.kicker_ready = false;
-      evaluate(PolicyName::kPredictive, config, robot, goal, before, watched[i]);
+      evaluate(policy, config, robot, goal, before, watched[i]);
     }
     inputs[i].opponent_distance_m = 0.8 + 0.3 * static_cast<double>(i % 8);
   }
   std::size_t i = 0;
   for (auto _ : state) {
     PolicyMemory memory = watched[i];
-    benchmark::DoNotOptimize(evaluate(PolicyName::kPredictive, config, robot, goal, inputs[i], memory));
+    benchmark::DoNotOptimize(evaluate(policy, config, robot, goal, inputs[i], memory));
     i = (i + 1) % inputs.size();
   }
 }
-BENCHMARK(predictive_kick_decision)->ArgName("keeper")->Arg(0)->Arg(1)->Arg(2);
+BENCHMARK(predictive_kick_decision)->ArgName("keeper")->Arg(0)->Arg(1)->Arg(2)->Arg(3);
 
 void solve_moving_kick(benchmark::State& state) {
   FlightPoint point{5.73, 0.59};

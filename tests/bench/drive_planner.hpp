@@ -143,7 +143,7 @@ inline std::vector<Plan> plans_of_the_policy(const sim::TrueState& state, const 
   return plans;
 }
 
-using Axes = std::array<double, 3>;  // forward, sideways, turning
+using Axes = std::array<double, 3>;  // sideways, forward, turning
 
 inline bool is_better(const Plan& a, const Plan& b) { return a.value > b.value; }
 
@@ -151,9 +151,12 @@ inline bool is_better(const Plan& a, const Plan& b) { return a.value > b.value; 
 /// two others of them and from nothing.
 class Search {
  public:
-  Search(Worth& worth, const sim::Scenario& scenario, int samples, int rounds, std::mt19937_64& random)
+  /// `sideways_mps`: no faster sideways than this.
+  Search(Worth& worth, const sim::Scenario& scenario, double sideways_mps, int samples, int rounds,
+         std::mt19937_64& random)
       : worth_(worth),
-        limits_{scenario.robot.max_speed_mps, scenario.robot.max_speed_mps, scenario.robot.max_turn_rate_radps},
+        limits_{std::min(sideways_mps, scenario.robot.max_speed_mps), scenario.robot.max_speed_mps,
+                scenario.robot.max_turn_rate_radps},
         samples_(static_cast<std::size_t>(samples)),
         rounds_(rounds),
         random_(random),

@@ -33,6 +33,7 @@ struct Flags {
   std::uint32_t matches = 100, possessions = 10;
   int samples = 64, rounds = 25;
   bool on_target = false;
+  double sideways_mps = HUGE_VAL;
 };
 
 /// A match in which each possession is planned when it begins, and then driven.
@@ -69,7 +70,7 @@ class PlannedMatch {
     auto known = plans_of_the_policy(state, config_, settings_.goal, worth.cycles());
     for (Plan& one : known) worth.judge(one);
     std::ranges::sort(known, is_better);
-    plan_ = Search{worth, scenario_, flags_.samples, flags_.rounds, random_}.best(known);
+    plan_ = Search{worth, scenario_, flags_.sideways_mps, flags_.samples, flags_.rounds, random_}.best(known);
     tally_.known += known.front().value;
     tally_.promised += plan_->value;
     tally_.hopeless += plan_->value < 0.02 ? 1 : 0;
@@ -145,6 +146,8 @@ int run(int argc, char** argv) {
   app.add_option("--samples", flags.samples, "Plans of a round")->check(CLI::Range(8, 100000))->capture_default_str();
   app.add_option("--rounds", flags.rounds, "Rounds from each of four starts")->capture_default_str();
   app.add_flag("--on-target", flags.on_target, "Plans for balls on target, as if no keeper stood there");
+  app.add_option("--sideways", flags.sideways_mps, "Greatest sideways speed [m/s], as policy.max_sideways_mps")
+      ->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   play_all(flags);
   return 0;

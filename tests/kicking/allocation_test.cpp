@@ -34,7 +34,7 @@ void expect_decisions_without_allocation(const RobotModel& robot) {
   std::vector<PolicyMemory> memories;
   for (std::size_t place = 0; place < kPolicyCount; ++place) memories.emplace_back(static_cast<PolicyName>(place));
   PolicyConfig config;
-  config.learned.emplace();
+  config.learned.emplace().decision.styles = kDriveStyles;
   double sum = 0.0;
   const std::size_t before = allocations;
   for (std::size_t place = 0; place < kPolicyCount; ++place) {

@@ -212,7 +212,68 @@ TEST(LearnedPolicy, WithAnEmptyModelDecidesByThePhysicalProbability) {
   const PolicyOutput learned = evaluate(PolicyName::kLearned, config, {}, {}, input, memory);
   const PolicyOutput physical = once(input);
   EXPECT_EQ(learned.fire, physical.fire);
-  EXPECT_NEAR(*learned.p_on_target, *physical.p_on_target, 1e-6);
+  EXPECT_EQ(*learned.p_on_target, *physical.p_on_target);
+}
+
+PolicyOutput learned_once(const LearnedDecision& decision, const PolicyInput& input) {
+  PolicyConfig config;
+  config.learned.emplace().decision = decision;
+  PolicyMemory memory;
+  return evaluate(PolicyName::kLearned, config, {}, {}, input, memory);
+}
+
+TEST(LearnedPolicy, WaitsWhereItsWeightsMakeWaitingWorthMore) {
+  const PolicyInput input = threatened({0, 3, 0.05}, {0, 0.8, -0.5}, 3.0, 1.0);
+  LearnedDecision patient, hasty;
+  patient.fire_weights[0] = -2.0;
+  hasty.fire_weights[0] = 2.0;
+  EXPECT_EQ(learned_once(patient, input).reason, Reason::kWaiting);
+  EXPECT_TRUE(learned_once(hasty, input).fire);
+}
+
+TEST(LearnedPolicy, TurnsTheSignOfItsWeightsWithTheirFeatures) {
+  const PolicyInput slow = threatened({0, 3, 0.05}, {0, 0.8, 0.0}, 3.0, 1.0);
+  const PolicyInput fast = threatened({0, 3, 0.05}, {0, 0.8, -1.5}, 3.0, 1.0);
+  LearnedDecision decision;
+  decision.fire_weights[0] = 1.0;
+  decision.fire_weights[2] = -5.0;  // a turning robot waits
+  EXPECT_TRUE(learned_once(decision, slow).fire);
+  EXPECT_FALSE(learned_once(decision, fast).fire);
+}
+
+TEST(LearnedPolicy, DrivesByTheStyleThatPromisesMore) {
+  LearnedDecision decision;
+  decision.styles = 2;
+  decision.style[0] = {.speed_ratio = 0.0};
+  decision.style[1] = {.speed_ratio = 1.5};
+  PolicyConfig config;
+  config.learned.emplace().decision = decision;
+  PolicyMemory memory;
+  PolicyInput input = threatened({0, -3.5, 0.0}, {0, 0.5, 0}, 8.0, 0.1);  // full power falls short from here
+  double fastest_mps = 0.0;
+  for (int i = 0; i < 10; ++i) {
+    fastest_mps = std::max(fastest_mps, evaluate(PolicyName::kLearned, config, {}, {}, input, memory).drive.vy_mps);
+    input.t_ns += 20'000'000;
+  }
+  EXPECT_NEAR(fastest_mps, 1.8, 1e-9);
+  EXPECT_EQ(own(memory).way.style, 1u);
+}
+
+TEST(LearnedPolicy, KeepsTheLimitsOfTheRobotWithTheBall) {
+  const PolicyConfig config;
+  for (const double side : {0.5, 3.0, 10.0}) {
+    for (const double speed : {-1.0, 0.4, 2.0}) {
+      LearnedDecision decision;
+      decision.style[0] = {.speed_ratio = speed, .side_ratio = side, .brake_ratio = 4.0, .aim_ratio = 0.9};
+      for (const double heading : {-2.5, -0.7, 0.1, 1.3, 3.0}) {
+        const Twist drive = learned_once(decision, ready_at({1, 2, heading}, {0.5, 1.0, 1.0})).drive;
+        EXPECT_LE(std::abs(drive.vx_mps), config.max_sideways_mps);
+        EXPECT_LE(drive.vy_mps, config.max_forward_mps);
+        EXPECT_GE(drive.vy_mps, -config.max_sideways_mps);
+        EXPECT_LE(std::abs(drive.omega_radps), config.max_turn_rate_radps);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "kicking/policy/predictive/drive_plan.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,10 +11,10 @@ namespace {
 
 /// `ahead`: the target in R.
 double turn_rate(DrivePlan plan, const DriveMotion& base, const PolicyConfig& config, const Eigen::Vector2d& ahead,
-                 double alpha_rad) {
+                 double alpha_rad, double braking) {
   const double side = -ahead.x() + alpha_rad * ahead.y();  // has the error's sign, alpha being small
   const double full_beyond_rad =
-      config.max_turn_rate_radps * config.max_turn_rate_radps / (1.5 * config.max_turn_acceleration_radps2);
+      config.max_turn_rate_radps * config.max_turn_rate_radps / (2.0 * braking * config.max_turn_acceleration_radps2);
   const bool full = plan == DrivePlan::kThrough || (ahead.y() < 0.0 && full_beyond_rad < 1.4);
   const bool other_way = side * base.omega_radps < 0.0 && ahead.y() < 0.0;
   if (full && !other_way) return std::copysign(config.max_turn_rate_radps, side);
@@ -25,21 +26,21 @@ double turn_rate(DrivePlan plan, const DriveMotion& base, const PolicyConfig& co
     error -= std::copysign(2.0 * std::numbers::pi, error);
   }
   if (plan == DrivePlan::kThrough) return std::copysign(config.max_turn_rate_radps, error);
-  return turn_rate_for(error, config.moving_turn_gain_hz, config);
+  return turn_rate_for(error, config.moving_turn_gain_hz, config, braking);
 }
 
 }  // namespace
 
 Twist command_of(DrivePlan plan, const DriveMotion& base, const PolicyConfig& config, const Eigen::Vector2d& target_m,
-                 double dribble_mps, double lateral_transfer, double ball_speed_mps) {
+                 double dribble_mps, double lateral_transfer, double ball_speed_mps, const DriveStyle& style) {
   const Eigen::Vector2d line = target_m - base.position_m;
   const Eigen::Vector2d right(base.forward.y(), -base.forward.x());
   const Eigen::Vector2d ahead(line.dot(right), line.dot(base.forward));
   const double alpha = lateral_transfer * base.velocity_mps.dot(right) / ball_speed_mps;
   Twist command;
-  command.omega_radps = turn_rate(plan, base, config, ahead, alpha);
-  const Eigen::Vector2d velocity = dribble_towards(ahead, config, dribble_mps);
-  command.vx_mps = velocity.x();
+  command.omega_radps = turn_rate(plan, base, config, ahead, alpha, 0.75 * style.brake_ratio);
+  const Eigen::Vector2d velocity = dribble_towards(ahead, config, style.speed_ratio * dribble_mps);
+  command.vx_mps = std::clamp(style.side_ratio * velocity.x(), -config.max_sideways_mps, config.max_sideways_mps);
   command.vy_mps = velocity.y();
   return command;
 }

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "kicking/policy/predictive/drive_motion.hpp"
+#include "kicking/policy/predictive/learned_decision.hpp"
 
 namespace trivela::kicking {
 
@@ -10,9 +11,10 @@ namespace trivela::kicking {
 /// the other policies. kThrough: as fast as the base turns, through the target and back.
 enum class DrivePlan { kOnto, kThrough };
 
-/// How the robot drives: a plan, and where on the goal line it turns to.
+/// How the robot drives: a plan, a style, and where on the goal line it turns to.
 struct Way {
   DrivePlan plan = DrivePlan::kOnto;
+  std::size_t style = 0;
   double aim_x_m = 0.0;  ///< in F
 };
 
@@ -23,6 +25,6 @@ inline constexpr std::array<DrivePlan, 2> kDrivePlans{DrivePlan::kOnto, DrivePla
 /// The plan's drive command in a state of motion. It turns the way that is quicker from the present turn rate, to where
 /// a standing turn rate sends the ball to the target: bearing plus alpha = k_x v_x / ball_speed_mps.
 Twist command_of(DrivePlan plan, const DriveMotion& base, const PolicyConfig& config, const Eigen::Vector2d& target_m,
-                 double dribble_mps, double lateral_transfer, double ball_speed_mps);
+                 double dribble_mps, double lateral_transfer, double ball_speed_mps, const DriveStyle& style = {});
 
 }  // namespace trivela::kicking

@@ -10,15 +10,29 @@
 namespace trivela::kicking {
 namespace {
 
-constexpr double kBetter = 2e-3;               // a plan must promise so much more than the one before it
 constexpr std::uint32_t kCyclesOfACorner = 4;  // after so many the other one is looked at, too
-constexpr double kMovesLever = 0.85;           // worth of a kick for which the lever moves first; tuned
 constexpr double kLastShare = 1.0 - 1e-3;      // of a cycle: its end is the next decision's beginning
 
 DriveMotion settled(const PolicyConfig& config, const PolicyInput& input, const PredictiveMemory& memory) {
   DriveMotion base(input.pose, input.twist);
   if (memory.command) base.hasten(*memory.command, config, config.predictive.twist_lag_s);
   return base;
+}
+
+constexpr LearnedDecision kByHand{};
+
+/// The settings with what was learned on top.
+PredictiveConfig settings_of(PredictiveConfig settings, const LearnedDecision& decision) {
+  settings.threshold *= decision.threshold_ratio;
+  settings.goal_threshold *= decision.goal_threshold_ratio;
+  settings.position_sd_m *= decision.position_ratio;
+  settings.heading_sd_rad *= decision.heading_ratio;
+  settings.speed_sd_mps *= decision.speed_ratio;
+  settings.turn_rate_sd_radps *= decision.turn_rate_ratio;
+  settings.hazard_per_s *= decision.hazard_ratio;
+  settings.dispute_distance_m += decision.dispute_shift_m;
+  settings.opponent_places = settings.opponent_places || decision.opponent_places;
+  return settings;
 }
 
 StateSpread spread_of(const PredictiveConfig& config, const PolicyInput& input, const PredictiveMemory& memory) {
@@ -35,16 +49,21 @@ LookaheadSearch::LookaheadSearch(const PolicyConfig& config, const RobotModel& r
       robot_(robot),
       goal_(goal),
       input_(input),
-      learned_(learned),
+      learned_(learned != nullptr && learned->corrects() ? learned : nullptr),
+      decision_(learned != nullptr ? learned->decision : kByHand),
+      settings_(settings_of(config.predictive, decision_)),
       past_keeper_(plays_past(config, input)),
       reach_(carry_reach(config, robot, memory)),
       start_(settled(config, input, memory)),
-      spread_(spread_of(config.predictive, input, memory)),
-      kind_count_(learned != nullptr ? 1 : std::min(robot.kinds(), kMostKickKinds)),
-      survival_(config.predictive, memory.opponent),
+      spread_(spread_of(settings_, input, memory)),
+      kind_count_(learned_ != nullptr ? 1 : std::min(robot.kinds(), kMostKickKinds)),
+      survival_(settings_, memory.opponent),
       opponent_(memory.opponent),
       wanted_kind_(memory.lever_kind),
       way_(memory.way),
+      other_style_(memory.other_style(decision_.styles)),
+      dribble_mps_(dribble_mps(config, input)),
+      half_width_m_(goal.clean_half_width_m(robot.ball)),
       looks_at_both_(past_keeper_ && memory.cycles_past % kCyclesOfACorner == 1),
       last_fire_after_s_(last_fire_after_s(robot, input)) {
   for (std::size_t i = 0; i < kind_count_; ++i) kinds_[i].emplace(kind_of(i, memory));
@@ -66,9 +85,19 @@ LookaheadSearch::Kind LookaheadSearch::kind_of(std::size_t i, const PredictiveMe
   return kind;
 }
 
+/// Where the way turns to: off the target by the style's share, towards where the robot heads.
+double LookaheadSearch::aim_x_m(const Way& way, const DriveMotion& base) const {
+  const double off_m = decision_.style[way.style].aim_ratio * half_width_m_;
+  if (off_m == 0.0) return way.aim_x_m;
+  const Eigen::Vector2d line = Eigen::Vector2d{way.aim_x_m, goal_.y_m} - base.position_m;
+  const double left = base.forward.y() * line.x() - base.forward.x() * line.y();  // the target is to the right
+  return std::clamp(way.aim_x_m - std::copysign(off_m, left), -half_width_m_, half_width_m_);
+}
+
 Twist LookaheadSearch::command_at(const Way& way, const DriveMotion& base) const {
-  const Twist command = command_of(way.plan, base, config_, {way.aim_x_m, goal_.y_m}, dribble_mps(config_, input_),
-                                   robot_.transfer_exact.lateral, ball_speed_mps_);
+  const DriveStyle& style = decision_.style[way.style];
+  const Twist command = command_of(way.plan, base, config_, {aim_x_m(way, base), goal_.y_m}, dribble_mps_,
+                                   robot_.transfer_exact.lateral, ball_speed_mps_, style);
   return reach_.keep(command, base.position_m, base.forward);
 }
 
@@ -113,7 +142,7 @@ PlannedShot LookaheadSearch::planned_shot(const DriveMotion& base, double fire_a
 
 /// The distance of the nearest is watched for longer than its place.
 void LookaheadSearch::look_at_opponents() {
-  if (!config_.predictive.opponent_places) return;
+  if (!settings_.opponent_places) return;
   const Eigen::Vector2d ball_m = held_ball(input_.pose, robot_);
   std::size_t nearest = 0;
   for (std::size_t i = 0; i < input_.opponent_count; ++i) {
@@ -130,10 +159,10 @@ void LookaheadSearch::look_at_opponents() {
 
 /// Probability that no opponent is in the way.
 double LookaheadSearch::passes(const PlannedShot& planned, double release_after_s) const {
-  const PredictiveConfig& settings = config_.predictive;
   if (body_count_ == 0) {
     if (!opponent_.seen) return 1.0;
-    return 1.0 - p_blocked(settings, opponent_.distance_after_m(release_after_s), planned.shot, robot_.ball);
+    return 1.0 - decision_.blocking_ratio *
+                     p_blocked(settings_, opponent_.distance_after_m(release_after_s), planned.shot, robot_.ball);
   }
   const KickExit& exit = planned.shot.exit;
   const ReleaseState& release = planned.release;
@@ -144,12 +173,13 @@ double LookaheadSearch::passes(const PlannedShot& planned, double release_after_
                       release.carried_mps(robot_.kind(planned.kind).transfer_exact, robot_.ball_offset_m),
       .v_z_mps = exit.v_kick_mps * exit.exit_angle.sine,
       .sd_rad = crossing.sd_x_m / std::max(0.1, way_m)};
-  const Body body{settings.opponent_radius_m, settings.opponent_height_m};
+  const Body body{settings_.opponent_radius_m, settings_.opponent_height_m};
   double p = 1.0;
   for (std::size_t i = 0; i < body_count_; ++i) {
     const Opponent& other = bodies_[i];
-    const double then_m = std::max(settings.dispute_distance_m, other.distance_m - other.closing_mps * release_after_s);
-    p *= 1.0 - p_in_the_way(then_m * other.bearing, other.sd_m, path, body, robot_.ball);
+    const double then_m =
+        std::max(settings_.dispute_distance_m, other.distance_m - other.closing_mps * release_after_s);
+    p *= 1.0 - decision_.blocking_ratio * p_in_the_way(then_m * other.bearing, other.sd_m, path, body, robot_.ball);
   }
   return p;
 }
@@ -177,21 +207,21 @@ PlannedShot LookaheadSearch::shot_of(std::uint8_t kind, const DriveMotion& base,
 
 /// While the lever moves nothing can be fired, which no instant looks at by itself.
 double LookaheadSearch::worth(const PlannedShot& planned) const {
-  return (planned.kind == wanted_kind_ ? 1.0 : kMovesLever) * chance(planned);
+  return (planned.kind == wanted_kind_ ? 1.0 : decision_.lever_worth) * chance(planned);
 }
 
 double LookaheadSearch::value(const PlannedShot& planned, double survival) const {
   const double p = chance(planned);
-  return p >= (past_keeper_ ? config_.predictive.goal_threshold : config_.predictive.threshold)
-             ? survival * worth(planned)
-             : 0.0;
+  return p >= (past_keeper_ ? settings_.goal_threshold : settings_.threshold) ? survival * worth(planned) : 0.0;
 }
 
 /// The plans part where their commands do.
 void LookaheadSearch::go_on(Ways& ways, double time_s) const {
   std::array<Twist, kDrivePlans.size()> commands;
   for (std::size_t i = 0; i < kDrivePlans.size(); ++i) {
-    commands[i] = command_at({kDrivePlans[i], ways.candidates[0].way.aim_x_m}, ways.bases[std::min(i, ways.count - 1)]);
+    Way way = ways.candidates[0].way;
+    way.plan = kDrivePlans[i];
+    commands[i] = command_at(way, ways.bases[std::min(i, ways.count - 1)]);
     if (i < ways.count || commands[i].omega_radps == commands[0].omega_radps) continue;
     ways.bases[i] = ways.bases[0];
     ways.candidates[i] = ways.candidates[0];
@@ -218,23 +248,23 @@ void LookaheadSearch::look_at_this_cycle(Ways& ways) {
     candidate.value_now = std::max({candidate.values[0], candidate.values[1], candidate.values[2]});
     candidate.value_later = config_.cycle_s <= last_fire_after_s_ ? candidate.values[2] : 0.0;
     candidate.kind_later = candidate.now.kind;
+    candidate.later_s = config_.cycle_s;
   }
 }
 
 /// Until nothing can be worth more than the best any more.
 void LookaheadSearch::look_ahead(Ways& ways) {
-  const PredictiveConfig& settings = config_.predictive;
   double best = std::max(ways.candidates[0].value(), ways.candidates[ways.count - 1].value());
-  const double horizon_s = std::min(settings.horizon_s, last_fire_after_s_);
-  for (double fire_after_s = config_.cycle_s + settings.step_s; fire_after_s <= horizon_s;
-       fire_after_s += settings.step_s) {
+  const double horizon_s = std::min(settings_.horizon_s, last_fire_after_s_);
+  for (double fire_after_s = config_.cycle_s + settings_.step_s; fire_after_s <= horizon_s;
+       fire_after_s += settings_.step_s) {
     const double survival = survival_(fire_after_s);
     if (survival <= best) return;
-    go_on(ways, settings.step_s);
+    go_on(ways, settings_.step_s);
     for (std::size_t i = 0; i < ways.count; ++i) {
       const double least = ways.candidates[i].value_later / survival;
       const PlannedShot shot = planned_shot(ways.bases[i], fire_after_s, false, least);
-      ways.candidates[i].see_later(value(shot, survival), shot.kind);
+      ways.candidates[i].see_later(value(shot, survival), fire_after_s, shot.kind);
       best = std::max(best, ways.candidates[i].value_later);
     }
   }
@@ -254,25 +284,45 @@ void LookaheadSearch::schedule(CandidateWay& candidate) {
   candidate.value_now = value(candidate.now, survival_(fire_after_s));
 }
 
-CandidateWay LookaheadSearch::best_to(double aim_x_m) {
+CandidateWay LookaheadSearch::best_to(double aim_x_m, std::size_t style) {
   Ways ways{{start_, start_}};
+  ways.candidates[0].way.style = style;
   ways.candidates[0].way.aim_x_m = aim_x_m;
   look_at_this_cycle(ways);
   look_ahead(ways);
   std::size_t best = 0;
   for (std::size_t i = 1; i < ways.count; ++i) {
-    if (ways.candidates[i].value() > ways.candidates[best].value() + kBetter) best = i;
+    if (ways.candidates[i].value() > ways.candidates[best].value() + decision_.switch_margin) best = i;
   }
   return ways.candidates[best];
 }
 
+bool LookaheadSearch::fires(const CandidateWay& candidate) const {
+  if (!(candidate.value_now > 0.0)) return false;
+  const std::array<double, kFireFeatures> features{1.0,
+                                                   chance(candidate.now),
+                                                   std::abs(start_.omega_radps) / config_.max_turn_rate_radps,
+                                                   candidate.later_s,
+                                                   1.0 - survival_(0.1),
+                                                   (goal_.y_m - start_.position_m.y()) / 6.0 - 1.0};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < features.size(); ++i) sum += decision_.fire_weights[i] * features[i];
+  return candidate.value_now * std::exp(sum) >= candidate.value_later;
+}
+
 CandidateWay LookaheadSearch::best() {
-  CandidateWay chosen = best_to(way_.aim_x_m);
-  if (looks_at_both_) {
-    const CandidateWay other = best_to(-way_.aim_x_m);
-    if (other.value() > chosen.value() + kBetter) chosen = other;
+  CandidateWay chosen = best_to(way_.aim_x_m, way_.style);
+  const auto look_at = [&](double aim_x_m, std::size_t style) {
+    const CandidateWay other = best_to(aim_x_m, style);
+    if (other.value() > chosen.value() + decision_.switch_margin) chosen = other;
+  };
+  if (looks_at_both_) look_at(-way_.aim_x_m, way_.style);
+  if (other_style_ != way_.style) look_at(way_.aim_x_m, other_style_);
+  chosen.fires = fires(chosen);
+  if (chosen.fires) {
+    schedule(chosen);
+    chosen.fires = fires(chosen);
   }
-  if (chosen.value_now > 0.0 && chosen.value_now >= chosen.value_later) schedule(chosen);
   return chosen;
 }
 

@@ -27,13 +27,16 @@ struct CandidateWay {
   std::array<double, 3> values{};  ///< S P of a shot at the beginning, middle and end of the cycle
   double value_now = 0.0;          ///< of firing within this cycle: S P, nothing below the threshold
   double value_later = 0.0;        ///< of the best later instant, weighed with keeping the ball until then
+  double later_s = 0.0;            ///< until that instant
   std::uint8_t kind_later = 0;     ///< of the kick of that instant
+  bool fires = false;              ///< the kick of this cycle is worth more than waiting
   double value() const { return value_now > value_later ? value_now : value_later; }
   std::uint8_t kind() const { return value_now >= value_later ? now.kind : kind_later; }
   /// A later instant of that value.
-  void see_later(double value, std::uint8_t kind) {
+  void see_later(double value, double after_s, std::uint8_t kind) {
     if (value <= value_later) return;
     value_later = value;
+    later_s = after_s;
     kind_later = kind;
   }
 };
@@ -59,9 +62,11 @@ class LookaheadSearch {
     std::size_t count = 1;
   };
 
+  double aim_x_m(const Way& way, const DriveMotion& base) const;
   Twist command_at(const Way& way, const DriveMotion& base) const;
   void drive_for(const Way& way, DriveMotion& base, double time_s) const;
-  CandidateWay best_to(double aim_x_m);
+  CandidateWay best_to(double aim_x_m, std::size_t style);
+  bool fires(const CandidateWay& candidate) const;
   void go_on(Ways& ways, double time_s) const;
   ShotFeatures features(const DriveMotion& base, const PlannedShot& planned) const;
   /// The best of the kinds for which the lever stands by then. Of chances of `least` or below it may say 0.
@@ -79,7 +84,9 @@ class LookaheadSearch {
   const RobotModel& robot_;
   const Goal& goal_;
   const PolicyInput& input_;
-  const LearnedModel* learned_;
+  const LearnedModel* learned_;  // nullptr: P is the physical one
+  const LearnedDecision& decision_;
+  PredictiveConfig settings_;
   bool past_keeper_;
   DribbleLimit reach_;
   DriveMotion start_;
@@ -110,6 +117,9 @@ class LookaheadSearch {
   std::size_t body_count_ = 0;
   std::uint8_t wanted_kind_;  // for which the lever was told to stand
   Way way_;                   // of the last cycle
+  std::size_t other_style_;   // that is looked at beside it
+  double dribble_mps_;
+  double half_width_m_;       // of the goal, where a ball passes clean
   bool looks_at_both_;        // corners
   double last_fire_after_s_;  // no plan waits longer
   double ball_speed_mps_;

@@ -48,8 +48,8 @@ void describe_shot(PolicyOutput& output, const PlannedShot& now, bool past_keepe
 
 Reason reason_of(const CandidateWay& best) {
   if (best.now.shot.out_of_range && !(best.value_later > 0.0)) return Reason::kOutOfRange;
-  if (best.value_now > 0.0 && best.value_now >= best.value_later) return Reason::kFire;
-  return best.value_later > 0.0 ? Reason::kWaiting : Reason::kUnlikely;
+  if (best.fires) return Reason::kFire;
+  return best.value() > 0.0 ? Reason::kWaiting : Reason::kUnlikely;
 }
 
 PolicyOutput evaluate_by(const LearnedModel* learned, const PolicyConfig& config, const RobotModel& robot,
@@ -67,6 +67,7 @@ PolicyOutput evaluate_by(const LearnedModel* learned, const PolicyConfig& config
     best.way = own.way;  // the kick was reckoned with this way of driving
   } else {
     best = search.best();
+    ++own.cycles_searched;
     own.way = best.way;
     own.want_lever(best.value() > 0.0 ? best.kind() : own.lever_kind, input.t_ns);
   }
