@@ -68,7 +68,13 @@ def test_the_first_kick_prints_what_the_page_shows(folder):
 
 
 def test_the_scripts_are_these():
-    assert {script.name for script in SCRIPTS} >= {"first_report.py", "calibrate_from_scans.py", "compare_two_nights.py"}
+    assert {script.name for script in SCRIPTS} == {"first_report.py", "calibrate_from_scans.py", "compare_two_nights.py", "train_a_policy.py"}
+
+
+def test_train_a_policy(folder):
+    said = run(ROOT / "examples/python/train_a_policy.py", folder, 3, 4)
+    assert "best of 3: near_m" in said and "trained" in said
+    assert is_figure(folder / "training.png")
 
 
 def test_first_report(folder):
