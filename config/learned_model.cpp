@@ -134,8 +134,8 @@ LearnedDecision decision_of(const DecisionColumns& read, const std::string& file
   }
   std::ranges::copy(read.fire_weights, decision.fire_weights.begin());
   if (read.style.empty() || read.style.size() > kicking::kDriveStyles) {
-    throw Error{fmt::format("{}: {} of [[decision.style]], need 1 to {}", file, read.style.size(),
-                            kicking::kDriveStyles)};
+    throw Error{
+        fmt::format("{}: {} of [[decision.style]], need 1 to {}", file, read.style.size(), kicking::kDriveStyles)};
   }
   decision.styles = read.style.size();
   std::ranges::copy(read.style, decision.style.begin());

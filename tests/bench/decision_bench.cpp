@@ -84,7 +84,7 @@ void predictive_kick_decision(benchmark::State& state) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     for (int cycle = 10; cycle > 0; --cycle) {
       PolicyInput before = inputs[i];
-      before.t_ns -= 20'000'000 * cycle;
+      before.t_ns -= std::int64_t{20'000'000} * cycle;
       before.opponent_distance_m = 0.8 + 0.3 * static_cast<double>(i % 8) + 0.026 * cycle;
       before.kicker_ready = false;
       evaluate(policy, config, robot, goal, before, watched[i]);

@@ -139,7 +139,7 @@ std::vector<Way> by_hand() {
   return {{"stopped", "geometry", PolicyName::kStopped, {}, 0},
           {"moving", "geometry", PolicyName::kMoving, {}, 0},
           {"predictive", "statistics", PolicyName::kPredictive, {}, 0},
-          {"predictive, places", "statistics", PolicyName::kPredictive, {}, 0, true}};
+          {"places", "statistics", PolicyName::kPredictive, {}, 0, true}};
 }
 
 void report(const Flags& flags, bool goals, const std::vector<Way>& ways, const std::vector<ArmTally>& played,
@@ -184,7 +184,7 @@ void run(const Flags& flags) {
     ways.push_back(learned_from(flags, world, robots, flags.sizes[i]));
   if (!flags.correction.empty()) {
     const config::LearnedModelFile file = config::load_learned_model(flags.correction);
-    ways.push_back({fmt::format("{} kicks", file.training.kicks),
+    ways.push_back({fmt::format("{:.0f}k kicks", 1e-3 * file.training.kicks),
                     "learning",
                     PolicyName::kLearned,
                     {robots.size(), file.model},
