@@ -67,6 +67,7 @@ inline void require_up_to(const char* name, std::span<const double> values, doub
 }
 
 /// Each adds its functions to the module.
+void add_robots(py::module_& module);
 void add_kicks(py::module_& module);
 void add_judgement(py::module_& module);
 void add_policies(py::module_& module);

@@ -1,8 +1,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
-#include <filesystem>
 #include <numbers>
 #include <optional>
 
@@ -33,55 +31,75 @@ void require_acute(const char* name, std::span<const double> angles_rad) {
           [](double angle_rad) { return angle_rad > 0.0 && angle_rad < 0.5 * std::numbers::pi; });
 }
 
+/// Columns of solve(), of so many kicks.
+struct Solutions {
+  explicit Solutions(std::size_t kicks)
+      : v0_mps(kicks, kNone),
+        exact_mps(kicks, kNone),
+        paper_mps(kicks, kNone),
+        drag_mps(kicks, kNone),
+        power(kicks, kNone),
+        feasible(kicks),
+        descending(kicks),
+        range(kicks, -1) {}
+
+  void set(std::size_t i, const kicking::KickSpeeds& speeds) {
+    v0_mps[i] = speeds.v0_mps.wire();
+    exact_mps[i] = speeds.vk_exact_mps.wire();
+    paper_mps[i] = speeds.vk_paper_mps.wire();
+    feasible[i] = speeds.v0_mps.has_value();
+    descending[i] = speeds.descending;
+  }
+
+  void set_power(std::size_t i, const kicking::PowerReading& reading) {
+    power[i] = reading.power;
+    range[i] = static_cast<std::int8_t>(reading.range);
+  }
+
+  py::dict arrays(bool with_drag, bool with_power) {
+    py::dict columns;
+    columns["v0_mps"] = array_of(std::move(v0_mps));
+    columns["vk_exact_mps"] = array_of(std::move(exact_mps));
+    columns["vk_paper_mps"] = array_of(std::move(paper_mps));
+    columns["feasible"] = array_of_truths(std::move(feasible));
+    columns["descending"] = array_of_truths(std::move(descending));
+    if (with_drag) columns["v0_drag_mps"] = array_of(std::move(drag_mps));
+    if (with_power) columns["power"] = array_of(std::move(power));
+    if (with_power) columns["power_range"] = array_of(std::move(range));
+    return columns;
+  }
+
+  std::vector<double> v0_mps, exact_mps, paper_mps, drag_mps, power;
+  std::vector<std::uint8_t> feasible, descending;
+  std::vector<std::int8_t> range;
+};
+
 py::dict solve(const Numbers& distance_m, const Numbers& height_m, const Numbers& exit_angle_rad,
                const Numbers& v_front_mps, const Numbers& transfer, const std::optional<Numbers>& drag_coefficient,
                const std::optional<config::Robot>& robot, const Flight& flight) {
   const auto d = span_of(distance_m), h = span_of(height_m), angle = span_of(exit_angle_rad), v = span_of(v_front_mps),
              k = span_of(transfer), drag = drag_coefficient ? span_of(*drag_coefficient) : std::span<const double>();
   require_positive("distance_m", d);
-  require_finite("height_m", h);
+  require_all_finite({{"height_m", h}, {"v_front_mps", v}});
   require_acute("exit_angle_rad", angle);
-  require_finite("v_front_mps", v);
   require_up_to("transfer", k, 10.0);
   require_up_to("drag_coefficient", drag, 10.0);
-  std::vector<double> v0(d.size()), exact(d.size()), paper(d.size()), with_drag(drag.size()), power;
-  std::vector<std::uint8_t> feasible(d.size()), descending(d.size());
-  std::vector<std::int8_t> range;
-  if (robot) {
-    power.assign(d.size(), kNone);
-    range.assign(d.size(), -1);
-  }
+  Solutions solutions(d.size());
   {
     const py::gil_scoped_release others;
     for (std::size_t i = 0; i < d.size(); ++i) {
       const kicking::WantedKick wanted{{d[i], h[i]}, angle[i], v[i], k[i], flight.gravity_mps2};
       const kicking::KickSpeeds speeds = kicking::kick_speeds(wanted);
-      v0[i] = speeds.v0_mps.wire();
-      exact[i] = speeds.vk_exact_mps.wire();
-      paper[i] = speeds.vk_paper_mps.wire();
-      feasible[i] = speeds.v0_mps.has_value();
-      descending[i] = speeds.descending;
+      solutions.set(i, speeds);
       if (!drag.empty()) {
         const double per_m = kicking::drag_per_m(flight.ball(), {flight.air_density_kgpm3, drag[i]});
-        with_drag[i] = kicking::crossing_speed_with_drag(wanted.point, angle[i], per_m, flight.gravity_mps2).wire();
+        solutions.drag_mps[i] =
+            kicking::crossing_speed_with_drag(wanted.point, angle[i], per_m, flight.gravity_mps2).wire();
       }
-      if (robot && speeds.vk_exact_mps) {
-        const kicking::PowerReading reading = robot->model.table.power_for(*speeds.vk_exact_mps);
-        power[i] = reading.power;
-        range[i] = static_cast<std::int8_t>(reading.range);
-      }
+      if (robot && speeds.vk_exact_mps) solutions.set_power(i, robot->model.table.power_for(*speeds.vk_exact_mps));
     }
   }
-  py::dict columns;
-  columns["v0_mps"] = array_of(std::move(v0));
-  columns["vk_exact_mps"] = array_of(std::move(exact));
-  columns["vk_paper_mps"] = array_of(std::move(paper));
-  columns["feasible"] = array_of_truths(std::move(feasible));
-  columns["descending"] = array_of_truths(std::move(descending));
-  if (drag_coefficient) columns["v0_drag_mps"] = array_of(std::move(with_drag));
-  if (robot) columns["power"] = array_of(std::move(power));
-  if (robot) columns["power_range"] = array_of(std::move(range));
-  return columns;
+  return solutions.arrays(drag_coefficient.has_value(), robot.has_value());
 }
 
 py::dict align(const Numbers& x_m, const Numbers& y_m, const Numbers& heading_rad, const Numbers& alpha_rad,
@@ -165,13 +183,6 @@ py::dict predict(const Numbers& x_m, const Numbers& y_m, const Numbers& heading_
   return columns;
 }
 
-template <double kicking::SetPoint::*column>
-py::array_t<double> set_points(const config::Robot& robot) {
-  std::vector<double> values;
-  for (const kicking::SetPoint& point : robot.model.table.set_points()) values.push_back(point.*column);
-  return array_of(std::move(values));
-}
-
 }  // namespace
 
 void add_kicks(py::module_& module) {
@@ -181,17 +192,6 @@ void add_kicks(py::module_& module) {
            py::arg("ball_radius_m") = ball.radius_m, py::arg("ball_mass_kg") = ball.mass_kg,
            py::arg("air_density_kgpm3") = kicking::Air{}.density_kgpm3)
       .def_readonly("ball_radius_m", &Flight::ball_radius_m);
-  py::class_<config::Robot>(
-      module, "Robot",
-      "A robot's file, such as config/robots/cambada_1.toml. Raises ValueError naming file, line, key and value.")
-      .def(py::init([](const std::filesystem::path& file) { return config::load_robot(file); }))
-      .def_readonly("name", &config::Robot::name)
-      .def_readonly("source", &config::Robot::source)
-      .def_property_readonly("powers", set_points<&kicking::SetPoint::power>)
-      .def_property_readonly("speeds_mps", set_points<&kicking::SetPoint::speed_mps>)
-      .def_property_readonly("exit_angle_rad", [](const config::Robot& robot) { return robot.model.exit_angle_rad; })
-      .def_property_readonly("delay_s", [](const config::Robot& robot) { return robot.model.delay_s; })
-      .def_property_readonly("ball_offset_m", [](const config::Robot& robot) { return robot.model.ball_offset_m; });
   module.def("solve", solve);
   module.def("align", align);
   module.def("predict", predict);

@@ -26,7 +26,7 @@ void set_error(const std::exception& error, PyObject* type) {
 }
 
 /// Bad arguments and files are ValueError, missing files FileNotFoundError, anything else RuntimeError.
-void translate(std::exception_ptr thrown) {
+void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): pybind11's type
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const py::builtin_exception&) {
@@ -54,6 +54,7 @@ PYBIND11_MODULE(_trivela, module) {
   module.def(
       "configuration_folder", [] { return config::folder().string(); },
       "The folder of the shipped configuration: default.toml, robots, scenarios, arms.");
+  python::add_robots(module);
   python::add_kicks(module);
   python::add_judgement(module);
   python::add_policies(module);

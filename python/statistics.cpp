@@ -108,9 +108,7 @@ stats::Rate rate_of(std::int64_t events, double minutes) {
   return {events, minutes};
 }
 
-}  // namespace
-
-void add_statistics(py::module_& module) {
+void add_intervals(py::module_& module) {
   module.def("wilson", of_group([](Counts c, double confidence) { return stats::wilson(c, confidence); }));
   module.def("clopper_pearson",
              of_group([](Counts c, double confidence) { return stats::clopper_pearson(c, confidence); }));
@@ -127,6 +125,9 @@ void add_statistics(py::module_& module) {
              of_groups([](Counts a, Counts b, double confidence) { return odds_ratio(a, b, confidence); }));
   module.def("posterior_difference",
              of_groups([](Counts a, Counts b, double confidence) { return posterior_difference(a, b, confidence); }));
+}
+
+void add_tests(py::module_& module) {
   module.def("fisher_one_sided", of_counts([](Counts a, Counts b) { return stats::fisher_one_sided(a, b); }));
   module.def("fisher_two_sided", of_counts([](Counts a, Counts b) { return stats::fisher_two_sided(a, b); }));
   module.def("boschloo_one_sided", of_counts([](Counts a, Counts b) { return stats::boschloo_one_sided(a, b); }));
@@ -136,6 +137,9 @@ void add_statistics(py::module_& module) {
   module.def("expected_loss_of_newer",
              of_counts([](Counts a, Counts b) { return stats::expected_loss_of_newer(a, b); }));
   module.def("always_valid_p", of_counts([](Counts a, Counts b) { return stats::always_valid_p(a, b); }));
+}
+
+void add_pairs_and_plans(py::module_& module) {
   module.def(
       "mcnemar",
       [](std::int64_t both, std::int64_t newer_only, std::int64_t older_only, std::int64_t neither) {
@@ -158,6 +162,9 @@ void add_statistics(py::module_& module) {
       "Kicks of each policy with which the two-sided test of level alpha finds p1 against p2 with this power (R's\n"
       "power.prop.test), not rounded; None: p1 == p2.",
       py::arg("p1"), py::arg("p2"), py::arg("power") = stats::kPower, py::arg("alpha") = 0.05);
+}
+
+void add_rates(py::module_& module) {
   module.def("rate_interval", [](std::int64_t events, double minutes, double confidence) {
     require_confidence(confidence);
     return cells(stats::rate_interval(rate_of(events, minutes), confidence));
@@ -171,6 +178,15 @@ void add_statistics(py::module_& module) {
                if (!ratio) return std::nullopt;
                return Cells<4>{ratio->value, ratio->ci.lo, ratio->ci.hi, ratio->p};
              });
+}
+
+}  // namespace
+
+void add_statistics(py::module_& module) {
+  add_intervals(module);
+  add_tests(module);
+  add_pairs_and_plans(module);
+  add_rates(module);
   module.def("holm", [](const Flat<double>& p) {
     require("p", span_of(p), "is not from 0 to 1", [](double x) { return x >= 0.0 && x <= 1.0; });
     return array_of(stats::holm(span_of(p)));

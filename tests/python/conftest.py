@@ -6,6 +6,7 @@ import pathlib
 import subprocess
 
 import pytest
+import trivela
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ["TRIVELA_BUILD"])
@@ -34,6 +35,12 @@ def vectors(name):
     """The rows of tests/vectors/NAME, as texts."""
     lines = [line for line in (ROOT / "tests/vectors" / name).read_text().splitlines() if not line.startswith("#")]
     return list(csv.DictReader(lines))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def one_build():
+    """A log says which version wrote it: module and program must be of one build."""
+    assert f"trivela {trivela.__version__}\n" in program("--version"), "build the module and the program anew"
 
 
 @pytest.fixture(scope="session")
