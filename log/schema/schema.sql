@@ -52,7 +52,7 @@ CREATE TABLE session_policies (            -- the policy in charge, by robot and
   session_id INTEGER NOT NULL,             -- sessions.session_id
   robot_id INTEGER NOT NULL,               -- robot; 0: every robot that has no row of its own
   half INTEGER NOT NULL,                   -- 1, 2
-  policy TEXT NOT NULL CHECK (policy GLOB '[a-z]*' AND length(policy) < 32), -- in charge of the kicks
+  policy TEXT NOT NULL CHECK (policy GLOB '[a-z]*' AND policy NOT GLOB '*[^a-z0-9_]*' AND length(policy) < 32), -- in charge of the kicks
   PRIMARY KEY (session_id, robot_id, half)
 ) STRICT, WITHOUT ROWID;
 
@@ -69,7 +69,7 @@ CREATE TABLE assignments (                 -- the policy in charge, by possessio
   robot_id INTEGER NOT NULL,               -- robot
   half INTEGER NOT NULL,                   -- 1, 2
   possession_id INTEGER NOT NULL,          -- the robot's own count
-  policy TEXT NOT NULL CHECK (policy GLOB '[a-z]*' AND length(policy) < 32), -- in charge of the kicks
+  policy TEXT NOT NULL CHECK (policy GLOB '[a-z]*' AND policy NOT GLOB '*[^a-z0-9_]*' AND length(policy) < 32), -- in charge of the kicks
   probability REAL NOT NULL,               -- with which it was put in charge; 1: not at random
   t_ns INTEGER,                            -- first decision of the possession in play; NULL: not noted
   PRIMARY KEY (session_id, robot_id, half, possession_id)
@@ -276,7 +276,7 @@ CREATE TABLE kick_decisions (              -- one cycle with the ball: fire or h
   kick_id INTEGER NOT NULL,                -- joins order, receipt, outcome and truth; 0: held
   half INTEGER NOT NULL,                   -- 1, 2
   possession_id INTEGER NOT NULL,          -- the robot's own count of its possessions in the half
-  policy TEXT NOT NULL CHECK (policy GLOB '[a-z]*' AND length(policy) < 32), -- in charge
+  policy TEXT NOT NULL CHECK (policy GLOB '[a-z]*' AND policy NOT GLOB '*[^a-z0-9_]*' AND length(policy) < 32), -- in charge
   fire INTEGER NOT NULL CHECK (fire IN (0, 1)), -- 1: kick now
   reason TEXT NOT NULL CHECK (reason = 'fire' OR reason = 'not_playing' OR reason = 'no_ball'
     OR reason = 'kicker_not_ready' OR reason = 'order_pending' OR reason = 'approaching' OR reason = 'turning'
