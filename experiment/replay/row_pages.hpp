@@ -29,6 +29,20 @@ struct RecordedRobot {
   bool lockstep = false;  ///< its streams share their instants
 };
 
+/// Sets the enum of a message by its text in the row; false: it is none.
+template <class T, class Enum>
+bool take_label(T&, Enum& field, const std::string& label) {
+  const auto value = bus::from_label<Enum>(label);
+  if (value) field = *value;
+  return value.has_value();
+}
+inline bool take_label(msg::KickDecision& decision, msg::Policy& field, const std::string& label) {
+  const auto value = bus::from_label<msg::Policy>(label);
+  field = value.value_or(msg::POLICY_OWN);
+  if (!value) label.copy(decision.own_policy, sizeof decision.own_policy - 1);
+  return true;
+}
+
 /// The message whose columns_of<T>() a row holds; NaN for a number that is NULL. Throws WrongCell.
 template <bus::Message T>
 T message_of(std::span<const log::Value> cells) {
@@ -39,15 +53,7 @@ T message_of(std::span<const log::Value> cells) {
     using Field = std::remove_cvref_t<decltype(field)>;
     if constexpr (bus::Enumeration<Field>) {
       const auto label = cell_as<std::string>(cells[column], column);
-      auto value = bus::from_label<Field>(label);
-      if constexpr (std::is_same_v<T, msg::KickDecision> && std::is_same_v<Field, msg::Policy>) {
-        if (!value) {
-          value = msg::POLICY_OWN;
-          label.copy(message.own_policy, sizeof message.own_policy - 1);
-        }
-      }
-      if (!value) throw log::WrongCell{column, "a label of its enum"};
-      field = *value;
+      if (!take_label(message, field, label)) throw log::WrongCell{column, "a label of its enum"};
     } else if constexpr (std::is_floating_point_v<Field>) {
       field = cell_as<std::optional<Field>>(cells[column], column).value_or(msg::kNone);
     } else {

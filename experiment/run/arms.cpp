@@ -120,6 +120,7 @@ Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
 
 std::vector<Arm> arms_of(const std::vector<config::ArmFields>& fields, const ArmBase& base) {
   std::vector<Arm> arms;
+  arms.reserve(fields.size());
   for (const config::ArmFields& arm : fields) arms.push_back(arm_of(arm, base));
   return arms;
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -18,7 +19,9 @@ enum class KickFate { kUnderWay, kRefused, kInside, kOutside, kUnknown };
 /// A policy as the bus names it.
 struct PolicyLabel {
   PolicyLabel(msg::Policy known = msg::POLICY_STOPPED, std::string name = {}) : policy(known), own(std::move(name)) {}
-  auto operator<=>(const PolicyLabel&) const = default;
+  friend bool operator<(const PolicyLabel& a, const PolicyLabel& b) {
+    return std::tie(a.policy, a.own) < std::tie(b.policy, b.own);
+  }
   std::string name() const { return policy == msg::POLICY_OWN ? own : msg::label(policy); }
 
   msg::Policy policy;

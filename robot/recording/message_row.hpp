@@ -20,16 +20,21 @@ std::string table_of() {
   throw std::logic_error("the match log has no table of " + std::string(bus::meta<T>::name));
 }
 
+/// The text of an enum in a message's row.
+template <class T, class Enum>
+const char* text_of(const T&, const Enum& field) {
+  return bus::label(field);
+}
+inline const char* text_of(const msg::KickDecision& decision, const msg::Policy&) { return msg::policy_name(decision); }
+
 /// Gives the cells of a message in the order of columns_of<T>() to the sink's integer(), number() and text(): enums by
 /// their label, the policy of a decision by its name, booleans as 0 and 1.
 template <bus::Struct T>
 void write_cells(auto& sink, const T& message) {
   bus::visit_values(message, [&](const auto& field) {
     using Field = std::remove_cvref_t<decltype(field)>;
-    if constexpr (std::is_same_v<T, msg::KickDecision> && std::is_same_v<Field, msg::Policy>) {
-      sink.text(msg::policy_name(message));
-    } else if constexpr (bus::Enumeration<Field>) {
-      sink.text(bus::label(field));
+    if constexpr (bus::Enumeration<Field>) {
+      sink.text(text_of(message, field));
     } else if constexpr (std::is_floating_point_v<Field>) {
       sink.number(static_cast<double>(field));
     } else {

@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=build/release
-flags=(-std=c++20 "-DTRIVELA_NODE_NAMES=\"\"" "-DTRIVELA_VERSION=\"\"" -I. -I$build -isystem /usr/include/eigen3 -DSPDLOG_COMPILED_LIB -DSPDLOG_FMT_EXTERNAL -DCPPHTTPLIB_OPENSSL_SUPPORT)
+flags=(-std=c++20 "-DTRIVELA_NODE_NAMES=\"\"" "-DTRIVELA_VERSION=\"\"" -I. -Iinclude -I$build -isystem /usr/include/eigen3 -DSPDLOG_COMPILED_LIB -DSPDLOG_FMT_EXTERNAL -DCPPHTTPLIB_OPENSSL_SUPPORT)
 while IFS= read -r folder; do flags+=("-I$folder"); done < <(find $build -type d -name generated; echo $build/bus; echo $build/robot/recording)
 for folder in /usr/include/python3.*; do flags+=(-isystem "$folder"); done
 checks=()
