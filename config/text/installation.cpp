@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include <cstdlib>
+#include <sstream>
+#include <string>
 
 namespace trivela::config {
 namespace {
@@ -31,18 +33,37 @@ fs::path own_file() {
   return fs::read_symlink("/proc/self/exe", unknown);
 }
 
-}  // namespace
-
-fs::path folder(const fs::path& of_machine) {
-  if (!named().empty()) return named();
-  const fs::path beside = own_file().parent_path();
-  fs::path installed = beside.parent_path() / "share/trivela/config";
+/// The settings near a program in this folder: of an installation, or of the sources of a build; empty: none.
+fs::path near_to(const fs::path& beside) {
+  const fs::path installed = beside.parent_path() / "share/trivela/config";
   if (!holds_settings(beside / "config") && holds_settings(installed)) return installed;
   for (fs::path above = beside; above.has_relative_path(); above = above.parent_path()) {
     for (const char* const name : {"config", "share/trivela/config"})
       if (holds_settings(above / name)) return above / name;
   }
-  return holds_settings(of_machine) ? of_machine : installed;
+  return {};
+}
+
+/// The folder of the PATH that has `trivela`; empty: none.
+fs::path of_trivela() {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders{path == nullptr ? "" : path};
+  std::error_code unreadable;
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (!fs::path{folder}.is_absolute()) continue;
+    if (fs::is_regular_file(fs::path{folder} / "trivela", unreadable)) return fs::canonical(folder, unreadable);
+  }
+  return {};
+}
+
+}  // namespace
+
+fs::path folder(const fs::path& of_machine) {
+  if (!named().empty()) return named();
+  const fs::path beside = own_file().parent_path();
+  for (const fs::path& near : {near_to(beside), near_to(of_trivela())})
+    if (!near.empty()) return near;
+  return holds_settings(of_machine) ? of_machine : beside.parent_path() / "share/trivela/config";
 }
 
 std::string trouble_with_folder() {

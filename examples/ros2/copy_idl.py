@@ -35,7 +35,7 @@ def structs(text):
     return re.findall(r"struct (\w+) \{(.*?)\n\s*\};", text, re.S)
 
 
-MEMBER = re.compile(r"^\s*(?:@\w+(?:\([^)]*\))? )*(\w+) (\w+)(?:\[(\d+)\])?;", re.M)
+MEMBER = re.compile(r"^\s*(?:@\w+(?:\([^)]*\))? )*(\w+(?:<\d+>)?) (\w+)(?:\[(\d+)\])?;", re.M)
 
 
 def fields(body):
@@ -59,6 +59,7 @@ def ros_fields(body, enums):
         if kind in enums:
             yield from (f"uint32 {label}={value}" for value, label in enumerate(enums[kind]))
             kind = "uint32"
+        kind = re.sub(r"string<(\d+)>", r"string<=\1", kind)
         yield f"{ROS.get(kind, kind)}{f'[{length}]' if length else ''} {name}"
 
 

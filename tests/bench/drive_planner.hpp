@@ -35,7 +35,7 @@ class Worth {
  public:
   Worth(const sim::Scenario& scenario, const kicking::PolicyConfig& config, const kicking::RobotModel& robot,
         const kicking::Goal& goal, const sim::TrueState& state, double dispute_s)
-      : scenario_(scenario), config_(config), robot_(robot), goal_(goal), state_(state), last_fire_s_(dispute_s) {
+      : scenario_(scenario), robot_(robot), goal_(goal), state_(state), last_fire_s_(dispute_s) {
     std::optional<kicking::KeeperPlace> keeper;
     if (state.keeper_x_m && config.objective == kicking::Objective::kGoal)
       keeper = kicking::KeeperPlace{*state.keeper_x_m, 0.0};
@@ -114,7 +114,6 @@ class Worth {
   }
 
   const sim::Scenario& scenario_;
-  const kicking::PolicyConfig& config_;
   const kicking::RobotModel& robot_;
   const kicking::Goal& goal_;
   const sim::TrueState& state_;

@@ -114,9 +114,13 @@ TEST_F(Installed, AnotherProjectFindsAndUsesIt) {
   EXPECT_EQ(kick, output_of("examples/solve_a_kick", {}));
   EXPECT_EQ(output_of(folder_ / "consumer/examples/play_a_match", {}), output_of("examples/play_a_match", {}));
 
-  output_of(folder_ / "consumer/examples/patient",
-            {"simulate", "--arms", "patient,moving", "--matches", "2", "--possessions", "5", "--out", "own.db"});
-  EXPECT_THAT(output_of(program("trivela"), {"compare", "own.db"}), HasSubstr("patient"));
+  const auto on_the_path = [] { setenv("PATH", ((prefix() / "bin").string() + ":/usr/bin:/bin").c_str(), 1); };
+  Program own{folder_ / "consumer/examples/patient",
+              {"match", "--half", "patient", "--half", "moving", "--minutes", "0.2", "--seed", "1", "--out", "own.db"},
+              folder_.path(),
+              on_the_path};
+  EXPECT_EQ(own.wait(), 0) << own.errors();
+  EXPECT_THAT(output_of(program("trivela"), {"report", "own.db"}), HasSubstr("patient"));
 
   const std::string tag = "consumer-test-" + std::to_string(getpid());
   bus::Writer<msg::KickDecision> writer{bus::Participant{bus::loopback(19, tag)}};

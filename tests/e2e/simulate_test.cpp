@@ -32,8 +32,8 @@ TEST(Simulate, TheRowsDoNotDependOnTheNumberOfJobs) {
 
 TEST(Simulate, SaysBelowTheTableWhereTheLabelsAreWrong) {
   const tests::Folder folder;
-  // Later than the observer allows for.
-  Program late{"trivela", simulate("late.db", 10, {"--world", "kicker.delay_s=0.5"}), folder.path()};
+  // Seen later than the observer allows for.
+  Program late{"trivela", simulate("late.db", 10, {"--world", "flight_camera.latency_s=0.5"}), folder.path()};
   ASSERT_EQ(late.wait(), 0) << late.errors();
   EXPECT_THAT(late.output(), HasSubstr("stopped: many labels are wrong or unknown: "));
   Program right{"trivela", simulate("right.db", 10), folder.path()};
