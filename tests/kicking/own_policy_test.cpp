@@ -67,7 +67,8 @@ PolicyInput ready() {
 auto refused(const std::string& why) { return ThrowsMessage<std::invalid_argument>(HasSubstr(why)); }
 
 TEST(OwnPolicy, IsKnownByItsNameBehindTheRows) {
-  EXPECT_EQ(policy_named("eager"), (eager(), policy_named("eager")));
+  const PolicyName registered = eager();
+  EXPECT_EQ(policy_named("eager"), registered);
   EXPECT_TRUE(from_outside(eager()));
   EXPECT_STREQ(name(eager()), "eager");
   EXPECT_TRUE(facts(eager()).plays());
