@@ -50,9 +50,17 @@ Twist within_reach(const PolicyConfig& config, const RobotModel& robot, const Po
   return carry_reach(config, robot, memory).keep(drive, {pose.x_m, pose.y_m}, forward);
 }
 
-/// A kick that no kicker has is none, and a command that is no number stops the robot.
+/// A kick that no kicker has is none, and a command that is no number stops the robot. What a log needs is a number.
 void refuse_nonsense(const RobotModel& robot, PolicyOutput& output) {
-  if (output.reason == Reason::kFire && (!output.power || output.kick_kind >= robot.kinds()))
+  bool numbers = true;
+  for (double* const number :
+       {&output.target_x_m, &output.target_y_m, &output.target_z_m, &output.distance_m, &output.alpha_rad,
+        &output.beta_rad, &output.left_m, &output.right_m, &output.fire_after_s}) {
+    if (std::isfinite(*number)) continue;
+    numbers = false;
+    *number = 0.0;
+  }
+  if (output.reason == Reason::kFire && (!numbers || !output.power || output.kick_kind >= robot.kinds()))
     output.reason = Reason::kOutOfRange;
   if (output.lever_kind >= robot.kinds()) output.lever_kind = 0;
   if (!std::isfinite(output.drive.vx_mps + output.drive.vy_mps + output.drive.omega_radps)) output.drive = {};

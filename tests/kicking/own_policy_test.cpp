@@ -117,6 +117,13 @@ TEST(OwnPolicy, ThatReturnsNonsenseNeitherKicksNorDrives) {
   EXPECT_EQ(said([](PolicyOutput& out) { out.power = std::numeric_limits<double>::infinity(); }).reason,
             Reason::kOutOfRange);
   EXPECT_EQ(said([](PolicyOutput& out) { out.kick_kind = 200; }).reason, Reason::kOutOfRange);
+  for (double PolicyOutput::*number :
+       {&PolicyOutput::target_x_m, &PolicyOutput::target_y_m, &PolicyOutput::target_z_m, &PolicyOutput::alpha_rad,
+        &PolicyOutput::beta_rad, &PolicyOutput::fire_after_s}) {
+    const PolicyOutput output = said([&](PolicyOutput& out) { out.*number = NAN; });
+    EXPECT_EQ(output.reason, Reason::kOutOfRange);
+    EXPECT_EQ(output.*number, 0.0) << "the log needs a number";
+  }
   EXPECT_EQ(said([](PolicyOutput& out) { out.lever_kind = 200; }).lever_kind, 0);
   for (double Twist::*part : {&Twist::vx_mps, &Twist::vy_mps, &Twist::omega_radps}) {
     const PolicyOutput output = said([&](PolicyOutput& out) { out.drive.*part = NAN; });
