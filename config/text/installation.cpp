@@ -35,7 +35,7 @@ fs::path own_file() {
 
 /// The settings near a program in this folder: of an installation, or of the sources of a build; empty: none.
 fs::path near_to(const fs::path& beside) {
-  const fs::path installed = beside.parent_path() / "share/trivela/config";
+  fs::path installed = beside.parent_path() / "share/trivela/config";
   if (!holds_settings(beside / "config") && holds_settings(installed)) return installed;
   for (fs::path above = beside; above.has_relative_path(); above = above.parent_path()) {
     for (const char* const name : {"config", "share/trivela/config"})
