@@ -1,5 +1,6 @@
 #include "kicking/policy/policy.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -51,7 +52,8 @@ Twist within_reach(const PolicyConfig& config, const RobotModel& robot, const Po
 }
 
 /// A kick that no kicker has is none, and a command that is no number stops the robot. What a log needs is a number.
-void refuse_nonsense(const RobotModel& robot, PolicyOutput& output) {
+void refuse_nonsense(const PolicyConfig& config, const RobotModel& robot, PolicyOutput& output) {
+  if (static_cast<std::size_t>(output.reason) >= kReasonNames.size()) output.reason = Reason::kWaiting;
   bool numbers = true;
   for (double* const number :
        {&output.target_x_m, &output.target_y_m, &output.target_z_m, &output.distance_m, &output.alpha_rad,
@@ -63,7 +65,11 @@ void refuse_nonsense(const RobotModel& robot, PolicyOutput& output) {
   if (output.reason == Reason::kFire && (!numbers || !output.power || output.kick_kind >= robot.kinds()))
     output.reason = Reason::kOutOfRange;
   if (output.lever_kind >= robot.kinds()) output.lever_kind = 0;
-  if (!std::isfinite(output.drive.vx_mps + output.drive.vy_mps + output.drive.omega_radps)) output.drive = {};
+  Twist& drive = output.drive;
+  if (!std::isfinite(drive.vx_mps + drive.vy_mps + drive.omega_radps)) drive = {};
+  drive.vx_mps = std::clamp(drive.vx_mps, -config.max_forward_mps, config.max_forward_mps);
+  drive.vy_mps = std::clamp(drive.vy_mps, -config.max_forward_mps, config.max_forward_mps);
+  drive.omega_radps = std::clamp(drive.omega_radps, -config.max_turn_rate_radps, config.max_turn_rate_radps);
 }
 
 /// The policy's own rule, within what holds for every policy.
@@ -81,7 +87,7 @@ PolicyOutput ask(const Policy& policy, const PolicyConfig& config, const RobotMo
   if (drive && pending) return hold(config, goal, Reason::kOrderPending, memory.pending_command());
   if (!drive && config.rules.carry_limit_m > 0.0 && !memory.taken_m) memory.taken_m = held_ball(input.pose, robot);
   PolicyOutput output = policy.ask(config, robot, goal, input, memory);
-  if (policy.place() != kNoPlace) refuse_nonsense(robot, output);
+  if (policy.place() != kNoPlace) refuse_nonsense(config, robot, output);
   if (!drive) {
     if (memory.taken_m) output.drive = within_reach(config, robot, input.pose, memory, output.drive);
     if (!may_shoot(config, robot, input, output)) output.reason = Reason::kOwnHalf;

@@ -124,6 +124,11 @@ TEST(OwnPolicy, ThatReturnsNonsenseNeitherKicksNorDrives) {
     EXPECT_EQ(output.reason, Reason::kOutOfRange);
     EXPECT_EQ(output.*number, 0.0) << "the log needs a number";
   }
+  EXPECT_EQ(said([](PolicyOutput& out) { out.reason = static_cast<Reason>(99); }).reason, Reason::kWaiting);
+  const PolicyOutput fast = said([](PolicyOutput& out) { out.drive = {-1e9, 1e9, 1e9}; });
+  EXPECT_EQ(fast.drive.vx_mps, -PolicyConfig{}.max_forward_mps);
+  EXPECT_EQ(fast.drive.vy_mps, PolicyConfig{}.max_forward_mps);
+  EXPECT_EQ(fast.drive.omega_radps, PolicyConfig{}.max_turn_rate_radps);
   EXPECT_EQ(said([](PolicyOutput& out) { out.lever_kind = 200; }).lever_kind, 0);
   for (double Twist::*part : {&Twist::vx_mps, &Twist::vy_mps, &Twist::omega_radps}) {
     const PolicyOutput output = said([&](PolicyOutput& out) { out.drive.*part = NAN; });
