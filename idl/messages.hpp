@@ -1,6 +1,9 @@
 // Every message of the wire contract: trivela::msg types with their bus::meta.
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 #include "idl/device.hpp"
 #include "idl/kick.hpp"
 #include "idl/robot.hpp"
@@ -23,9 +26,11 @@ constexpr void for_each_message(F&& f) {
 
 namespace trivela::msg {
 
-/// The name of the policy in charge.
+/// The name of the policy in charge; "invalid" for a number outside the enum, as label().
 inline const char* policy_name(const KickDecision& decision) {
-  return decision.policy == POLICY_OWN ? decision.own_policy : label(decision.policy);
+  // By its bits: to load a number outside the enum as its type is undefined.
+  const bool own = std::bit_cast<std::uint32_t>(decision.policy) == static_cast<std::uint32_t>(POLICY_OWN);
+  return own ? decision.own_policy : label(decision.policy);
 }
 
 /// Whether this receipt is the one with which a kick begins: a second one that accepts says that it may have been
