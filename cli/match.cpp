@@ -10,6 +10,7 @@
 #include "cli/options/number_checks.hpp"
 #include "cli/verbs.hpp"
 #include "cli/watch/watch_page.hpp"
+#include "config/arms.hpp"
 #include "config/field.hpp"
 #include "config/robot.hpp"
 #include "config/scenario/scenario.hpp"
@@ -116,7 +117,10 @@ config::Settings settings_of(const MatchFlags& flags) {
         fmt::format("run.log_level = \"{}\"", flags.log_level)})
     lines.push_back(std::move(line));
   refuse_settings_of_flags(flags.overrides);
-  for (const std::string& line : flags.overrides) lines.push_back(line);
+  for (const std::string& line : flags.overrides) {
+    config::require_own_policy(line, "--set " + line);
+    lines.push_back(line);
+  }
   config::override_settings(settings, lines, "--set");
   refuse_oracle(settings.kick_decision);
   const sim::Scenario scenario = config::load_scenario(settings.run.scenario);

@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "config/settings_fields.hpp"
+#include "config/text/error.hpp"
 #include "config/text/toml_source.hpp"
+#include "kicking/text/nearest_word.hpp"
 #include "kicking/text/printable.hpp"
 
 namespace trivela::config {
@@ -127,12 +129,26 @@ std::vector<ArmFields> parse_arms(const std::string& text, const std::string& na
   return read_arms(parse_text(text, name));
 }
 
+void require_own_policy(std::string_view key, const std::string& place) {
+  constexpr std::string_view kOwn = "policy.own.";
+  if (!key.starts_with(kOwn)) return;
+  const std::string name{key.substr(kOwn.size(), key.find('.', kOwn.size()) - kOwn.size())};
+  std::vector<std::string> known;
+  for (const kicking::Policy* policy : kicking::policies().subspan(kicking::kPolicyCount))
+    if (!policy->facts().needs_program()) known.emplace_back(policy->facts().name);
+  if (std::ranges::find(known, name) != known.end()) return;
+  const auto meant = kicking::nearest_word(name, known);
+  throw BadArgument{fmt::format("{}: this program has no policy {} of its own{}", place, name,
+                                meant ? fmt::format("; did you mean {}?", *meant) : "")};
+}
+
 std::vector<std::string> override_setting(Settings& settings, const SettingLine& line) {
   try {
     const TomlSource source = parse_text(line.text, "");
-    read_into(source, settings);
     std::vector<std::string> keys;
     append_keys(source.root, "", keys);
+    for (const std::string& key : keys) require_own_policy(key, line.place);
+    read_into(source, settings);
     return keys;
   } catch (const Error& error) {
     const std::string what = error.what();  // ":1: what is wrong", the line being the text's own

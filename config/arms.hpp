@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/settings.hpp"
@@ -37,8 +38,11 @@ std::vector<ArmFields> load_arms(const std::filesystem::path& path);
 /// The same of a text, which sentences call `name`; its files are relative to the folder where the program runs.
 std::vector<ArmFields> parse_arms(const std::string& text, const std::string& name);
 
+/// Throws BadArgument where the key, "policy.own.NAME.KEY", sets a policy that this program has not.
+void require_own_policy(std::string_view key, const std::string& place);
+
 /// Overrides settings by the line; returns the keys that it names, e.g. "policy.predictive.threshold". Throws Error
-/// that begins with the line's place.
+/// that begins with the line's place, and as require_own_policy() does.
 std::vector<std::string> override_setting(Settings& settings, const SettingLine& line);
 
 }  // namespace trivela::config

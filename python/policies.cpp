@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "log/schema/digest.hpp"
 #include "python/cycle.hpp"
 
 namespace trivela::python {
@@ -23,7 +24,12 @@ class PythonPolicy final : public PolicyOf<PythonMemory> {
   }
 
   const Settings& described() const { return settings_of_; }
-  void replace(const py::function& evaluate) { evaluate_ = py::function(evaluate).release().ptr(); }
+  void replace(const py::function& evaluate) {
+    evaluate_ = py::function(evaluate).release().ptr();
+    code_ = log::make_uuid();
+  }
+  /// Two functions cannot be compared: nothing but this function goes on.
+  std::string code() const override { return code_; }
 
   PolicyOutput evaluate(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
                         PythonMemory& memory) const override {
@@ -51,6 +57,7 @@ class PythonPolicy final : public PolicyOf<PythonMemory> {
   Settings settings_of_;
   std::map<std::string, Setting> handles_;
   PyObject* evaluate_ = nullptr;
+  std::string code_;
 };
 
 void register_python(const std::string& name, const PythonPolicy::Settings& settings, const py::function& evaluate) {

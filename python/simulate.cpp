@@ -1,6 +1,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <exception>
 #include <mutex>
 
 #include "config/arms.hpp"
@@ -131,20 +133,35 @@ void add_match(Columns& row, const experiment::ExperimentPlan& plan, std::uint32
   }
 }
 
+/// Threads that get the interpreter's lock in turn are slower than one, which Ctrl-C stops in the middle of a match.
+bool plays_python(const experiment::ExperimentPlan& plan) {
+  return std::ranges::any_of(plan.arms, [](const experiment::Arm& arm) {
+    return std::ranges::any_of(experiment::policies_in(arm), &kicking::from_outside);
+  });
+}
+
 Columns play(const Asked& asked, Callback& callback) {
   const experiment::ExperimentPlan plan = plan_of(asked, callback);
+  const unsigned jobs = plays_python(plan) ? 1 : asked.jobs;
   Columns columns;
   const auto take = [&](std::uint32_t match_id, const std::vector<experiment::ArmMatch>& arms) {
     add_match(columns, plan, match_id, arms);
   };
-  const experiment::ExperimentWatch watch{
-      [](std::int64_t) {},
+  experiment::ExperimentWatch watch{
+      {},
       [&](double done, double all, const std::string& what) { callback.progress(done, all, what); },
-      [&] { return callback.raised(); }, take};
+      [&] { return callback.raised(); },
+      take};
+  const auto play_unrecorded = [&](std::int64_t matches) {
+    experiment::ExperimentPlan part = plan;
+    part.matches = static_cast<std::uint32_t>(matches);
+    experiment::play_matches(part, 0, jobs, false, watch, take);
+  };
   if (asked.out.empty()) {
-    experiment::play_matches(plan, plan.range().begin, asked.jobs, false, watch, take);
+    play_unrecorded(plan.matches);
   } else {
-    experiment::run_experiment(plan, asked.jobs, asked.out, watch);
+    watch.found = play_unrecorded;  // in the log already: played again for their rows
+    experiment::run_experiment(plan, jobs, asked.out, watch);
   }
   return columns;
 }
@@ -155,8 +172,9 @@ py::dict simulate(const Asked& asked, py::object progress) {
   try {
     const py::gil_scoped_release others;
     columns = play(asked, callback);
-  } catch (...) {
+  } catch (const std::exception& error) {
     callback.raise_again();
+    std::rethrow_if_nested(error);  // what a policy's function raised
     throw;
   }
   callback.raise_again();

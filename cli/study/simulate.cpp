@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "cli/launch/progress_bar.hpp"
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/stop_request.hpp"
 #include "cli/options/number_checks.hpp"
 #include "cli/options/shard_option.hpp"
 #include "cli/options/world.hpp"
@@ -36,15 +36,15 @@ struct SimulateFlags {
   std::optional<log::Shard> shard;
 };
 
-experiment::ExperimentRun play(const experiment::ExperimentPlan& plan, const SimulateFlags& flags,
-                               SignalInbox& signals) {
+experiment::ExperimentRun play(const experiment::ExperimentPlan& plan, const SimulateFlags& flags) {
+  const StopRequest stop;
   ProgressBar bar;
   const auto found = [&](std::int64_t matches) {
     if (matches > 0) fmt::print("{} of {} matches are in {} already\n", matches, plan.range().size(), flags.out);
   };
   const auto progress = [&](double done, double total, const std::string& what) { bar.show(done, total, what); };
   return experiment::run_experiment(plan, flags.jobs, flags.out,
-                                    {found, progress, [&] { return signals.stop_requested(); }});
+                                    {found, progress, [] { return StopRequest::asked(); }});
 }
 
 int simulate(const SimulateFlags& flags) {
@@ -63,8 +63,7 @@ int simulate(const SimulateFlags& flags) {
       draw_calibrations(plan.scenario, flags.base, {flags.calibrations, flags.seed, flags.jobs}, flags.matches);
   if (plan.calibrations.empty()) warn_of_shared_robots(plan.scenario, plan.arms);
   experiment::check_playable(plan);  // a plan that is refused leaves no log
-  SignalInbox signals;               // before the threads, which must not be interrupted
-  const experiment::ExperimentRun run = play(plan, flags, signals);
+  const experiment::ExperimentRun run = play(plan, flags);
   if (run.complete) {
     fmt::print("{}", to_text(plan, run, flags.jobs, flags.out));
     if (plan.shard)

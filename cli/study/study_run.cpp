@@ -50,7 +50,7 @@ experiment::KnownPlay StudyRun::play_known(const sim::Scenario& scenario, const 
       expected_ = knows_all_ ? expected_ - static_cast<double>(arms.size()) * range.size() + to_play : to_play;
     played_ = before + static_cast<double>(done);
     if (all > 0) bar_.show(played_, expected_, "matches", what);
-    if (signals_.stop_requested()) throw Interrupted{};
+    if (StopRequest::asked()) throw Interrupted{};
   });
 }
 

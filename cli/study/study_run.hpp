@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/launch/progress_bar.hpp"
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/stop_request.hpp"
 #include "cli/study/study.hpp"
 #include "cli/verbs.hpp"
 #include "log/shards/study_results.hpp"
@@ -44,7 +44,7 @@ class StudyRun {
  private:
   const Study& study_;
   std::string name_;
-  SignalInbox signals_;  // before the results, which a stop must not leave behind, and the threads
+  StopRequest stop_;  // before the results, which the first one must not leave behind
   log::StudyResults results_;
   ProgressBar bar_;
   bool knows_all_;         // how many matches of arms it will play

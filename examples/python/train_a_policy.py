@@ -3,6 +3,7 @@
 
 A search over the settings of a policy. Every candidate plays the same matches; the best one is judged on others.
 """
+import pathlib
 import sys
 
 import matplotlib.pyplot as plt
@@ -33,13 +34,14 @@ def arm(name, values):
 random = np.random.default_rng(1)
 candidates = [{"near_m": random.uniform(3.0, 7.0), "opponent_m": random.uniform(0.6, 2.5)} for _ in range(n_candidates)]
 arms = [arm(f"candidate {i}", values) for i, values in enumerate(candidates)]
-rows = trivela.simulate(arms, matches=matches, possessions=20, seed=1, jobs=2)
+rows = trivela.simulate(arms, matches=matches, possessions=20, seed=1)
 share = np.array([(rows.outcome[rows.arm == one["name"]] == "on_target").mean() for one in arms])
 best = candidates[int(share.argmax())]
 print(f"best of {n_candidates}: near_m {best['near_m']:.2f}, opponent_m {best['opponent_m']:.2f}, {share.max():.3f} on target an opportunity")
 
 # %% The judgement, on matches that nothing was chosen by
-trivela.simulate([{"name": "moving", "policy": "moving"}, arm("trained", best)], matches=matches, possessions=20, seed=2, jobs=2, out="trained.db")
+pathlib.Path("trained.db").unlink(missing_ok=True)  # of a run before
+trivela.simulate([{"name": "moving", "policy": "moving"}, arm("trained", best)], matches=matches, possessions=20, seed=2, out="trained.db")
 for pair in trivela.compare("trained.db", baseline="moving")["comparisons"]:
     print(pair["verdict"])
 

@@ -12,6 +12,7 @@
 #include "config/text/installation.hpp"
 #include "config/text/open_file.hpp"
 #include "experiment/play/play_match.hpp"
+#include "log/schema/digest.hpp"
 #include "robot/recording/session_text.hpp"
 
 namespace trivela::experiment {
@@ -75,15 +76,6 @@ void check_policy(const config::ArmFields& arm, kicking::PolicyName policy, cons
   }
 }
 
-/// Everybody who may be in charge.
-std::vector<kicking::PolicyName> policies_of(const Arm& arm) {
-  const config::KickDecision decision = settings_of(arm, {}).kick_decision;
-  if (!decision.random.empty()) return decision.random;
-  std::vector<kicking::PolicyName> policies = decision.policy_by_robot;
-  policies.push_back(decision.policy_by_half.front());
-  return policies;
-}
-
 std::vector<config::Robot> load_robots(const config::ArmFields& fields, const ArmBase& base) {
   std::vector<config::Robot> robots;
   try {
@@ -112,11 +104,29 @@ Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
     arm.random.push_back(
         {fields.random[i], i < fields.random_probabilities.size() ? fields.random_probabilities[i] : alike});
   }
-  for (const kicking::PolicyName policy : policies_of(arm)) check_policy(fields, policy, arm.settings, base);
+  for (const kicking::PolicyName policy : policies_in(arm)) check_policy(fields, policy, arm.settings, base);
   return arm;
 }
 
+/// What tells the policy's rule from a changed one.
+std::string code_of(const kicking::Policy& policy) {
+  if (std::string code = policy.code(); !code.empty()) return code;
+  static const std::string program = [] {
+    std::ifstream file{"/proc/self/exe", std::ios::binary};
+    return log::sha256(std::string(std::istreambuf_iterator<char>{file}, {}));
+  }();
+  return program;
+}
+
 }  // namespace
+
+std::vector<kicking::PolicyName> policies_in(const Arm& arm) {
+  const config::KickDecision decision = settings_of(arm, {}).kick_decision;
+  if (!decision.random.empty()) return decision.random;
+  std::vector<kicking::PolicyName> policies = decision.policy_by_robot;
+  policies.push_back(decision.policy_by_half.front());
+  return policies;
+}
 
 std::vector<Arm> arms_of(const std::vector<config::ArmFields>& fields, const ArmBase& base) {
   std::vector<Arm> arms;
@@ -147,6 +157,11 @@ std::string describe(const Arm& arm) {
   text += fmt::format("table = {}\n", arm.table);
   for (const robot::PolicyChance& chance : arm.random)
     text += fmt::format("random {} {}\n", kicking::name(chance.policy), chance.probability);
+  for (const kicking::PolicyName policy : policies_in(arm)) {
+    if (!from_outside(policy)) continue;
+    const kicking::Policy& outside = *kicking::policies()[static_cast<std::size_t>(policy)];
+    text += fmt::format("code of {} = {}\n", kicking::name(policy), code_of(outside));
+  }
   text += robot::session_config(arm.settings, arm.robots);
   const std::string& model = arm.settings.kick_decision.learned_model;
   if (model.empty()) return text;

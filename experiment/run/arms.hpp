@@ -32,7 +32,10 @@ std::vector<Arm> arms_of(const std::vector<config::ArmFields>& arms, const ArmBa
 /// A sentence where an arm has fewer robot files than the scenario's team has robots, each once.
 std::vector<std::string> shared_robots(const sim::Scenario& scenario, const std::vector<Arm>& arms);
 
-/// An arm as text: all that its rows depend on.
+/// Everybody who may be in charge in the arm.
+std::vector<kicking::PolicyName> policies_in(const Arm& arm);
+
+/// An arm as text: all that its rows depend on. A policy from outside changes with its code, not with the version.
 std::string describe(const Arm& arm);
 
 /// The settings that an arm plays by: those of the file `config`, then `overrides`, then the arm's own lines. Throws

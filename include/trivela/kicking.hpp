@@ -2,9 +2,10 @@
 
 #include "kicking/policy/policy.hpp"
 
-/// Whether a robot shall kick now, and how hard: four nouns, a robot, a goal, a state and a output, and `evaluate` that
-/// makes the fourth of the other three. SI units; the field's origin is its centre spot, +y points to the opponents'
-/// goal, +x to the right, and a heading of 0 faces the goal. Everything is a value, and nothing is allocated.
+/// Whether a robot shall kick now, and how hard: four nouns, a robot, a goal, a state and an output, and `evaluate`
+/// that makes the fourth of the other three. SI units; the field's origin is its centre spot, +y points to the
+/// opponents' goal, +x to the right, and a heading of 0 faces the goal. Everything is a value, and nothing is
+/// allocated.
 ///
 ///     const trivela::RobotModel robot;
 ///     const trivela::Goal goal{.y_m = 9.0};

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -34,11 +37,14 @@ using kicking::register_policy;
 using kicking::RobotModel;
 using kicking::StoppedMemory;
 
-/// Adds the policy of class P, made of these arguments. Throws std::invalid_argument as
-/// register_policy(std::unique_ptr<Policy>) does.
+/// Adds the policy of class P, made of these arguments. A name or settings that cannot be end the program with exit
+/// code 2 and a sentence; register_policy(std::unique_ptr<Policy>) throws std::invalid_argument there.
 template <class P, class... Arguments>
-PolicyName register_policy(Arguments&&... arguments) {
+PolicyName register_policy(Arguments&&... arguments) try {
   return kicking::register_policy(std::make_unique<P>(std::forward<Arguments>(arguments)...));
+} catch (const std::invalid_argument& error) {
+  std::fprintf(stderr, "trivela: %s\n", error.what());
+  std::exit(2);
 }
 
 }  // namespace trivela

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "kicking/policy/policy_output.hpp"
@@ -72,6 +75,15 @@ void refuse_nonsense(const PolicyConfig& config, const RobotModel& robot, Policy
   drive.omega_radps = std::clamp(drive.omega_radps, -config.max_turn_rate_radps, config.max_turn_rate_radps);
 }
 
+/// What the rule says. An exception of a policy from outside names it, the policy's own being nested in it.
+PolicyOutput asked(const Policy& policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                   const PolicyInput& input, PossessionMemory& memory) try {
+  return policy.ask(config, robot, goal, input, memory);
+} catch (const std::exception& error) {
+  if (policy.place() == kNoPlace || policy.facts().needs_program()) throw;
+  std::throw_with_nested(std::runtime_error("policy " + std::string{policy.facts().name} + ": " + error.what()));
+}
+
 /// The policy's own rule, within what holds for every policy.
 PolicyOutput ask(const Policy& policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                  const PolicyInput& input, PossessionMemory& memory) {
@@ -86,7 +98,7 @@ PolicyOutput ask(const Policy& policy, const PolicyConfig& config, const RobotMo
   // Between a drive's order and its release nothing may change: the next velocity and the way back are for later.
   if (drive && pending) return hold(config, goal, Reason::kOrderPending, memory.pending_command());
   if (!drive && config.rules.carry_limit_m > 0.0 && !memory.taken_m) memory.taken_m = held_ball(input.pose, robot);
-  PolicyOutput output = policy.ask(config, robot, goal, input, memory);
+  PolicyOutput output = asked(policy, config, robot, goal, input, memory);
   if (policy.place() != kNoPlace) refuse_nonsense(config, robot, output);
   if (!drive) {
     if (memory.taken_m) output.drive = within_reach(config, robot, input.pose, memory, output.drive);

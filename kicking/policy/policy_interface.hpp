@@ -54,6 +54,9 @@ class Policy {
   std::span<const PolicySetting> settings() const { return settings_; }
   /// Of its settings in PolicyConfig::own; kNoPlace: it is a row of kPolicyRows.
   std::size_t place() const { return place_; }
+  /// What tells its rule from a changed one: an experiment that was begun with one does not go on with the other.
+  /// Empty: the program's file does.
+  virtual std::string code() const { return {}; }
 
   virtual std::unique_ptr<PossessionMemory> new_memory() const = 0;
   virtual std::unique_ptr<PossessionMemory> copy(const PossessionMemory& memory) const = 0;

@@ -48,9 +48,10 @@ std::unique_ptr<SQLite::Database> resume(const fs::path& path, const StudyPlan& 
     SQLite::Statement known(*database, "SELECT arguments_sha256, matches FROM studies");
     if (!known.executeStep() || known.getColumn(0).getString() != sha256(arguments_of(plan)) ||
         known.getColumn(1).getInt64() != plan.range().size())
-      throw taken_file(path,
-                       "was begun with other arguments (table studies says which); a study goes on with its own alone, "
-                       "choose another file");
+      throw taken_file(
+          path,
+          "was begun with other arguments or other code of a policy (table studies says which); a study goes on "
+          "with its own alone, choose another file");
     return database;
   } catch (const SQLite::Exception& error) {
     if (is_busy(error)) throw taken_file(path, "another run writes to it");

@@ -64,9 +64,10 @@ void check(SQLite::Database& database, const fs::path& path, const Experiment& e
   if (!known.executeStep()) throw taken(path, "is a recorded match and no experiment; choose another file");
   if (known.getColumn(0).getString() != sha256(experiment.arguments) ||
       known.getColumn(1).getInt64() != experiment.matches) {
-    throw taken(path,
-                "was begun with other arguments (table experiments says which); an experiment goes on with its own "
-                "alone, choose another file");
+    throw taken(
+        path,
+        "was begun with other arguments or other code of a policy (table experiments says which); an experiment "
+        "goes on with its own alone, choose another file");
   }
 }
 

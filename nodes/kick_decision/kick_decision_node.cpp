@@ -97,7 +97,9 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   if (context_.settings.policy.rules.set_piece_s > 0.0) {
     if (const auto word = input_of_cycle(context_, *referee_, world.t_ns)) decider_.hear(*word);
   }
+  const std::int64_t began_ns = context_.steady_ns();
   const robot::CycleDecision& decision = decider_.decide(world, kicker, outcome(world, kicker), nullptr, age_s(world));
+  say_slow(decision.in_charge.policy, kicking::seconds(context_.steady_ns() - began_ns));
   if (in_charge()) {
     decider_.commit();
     say(world, kicker, decision);
@@ -150,6 +152,14 @@ void KickDecisionNode::say_unobserved() {
       "nobody writes kick_outcome: no shot_observer runs, and the log has no outcome of kicks until somebody labels "
       "them "
       "(trivela import kicks)");
+}
+
+/// A policy from outside may take longer than a cycle: what it decides next is decided on an old state, and held.
+void KickDecisionNode::say_slow(kicking::PolicyName policy, double took_s) {
+  const double cycle_s = context_.settings.run.cycle_s;
+  if (took_s <= cycle_s || context_.settings.run.lockstep || std::exchange(slow_said_, true)) return;
+  context_.logger->warn("a decision of {} took {:.0f} ms, and a cycle is {:.0f} ms: later ones may hold as stale_state",
+                        kicking::name(policy), 1e3 * took_s, 1e3 * cycle_s);
 }
 
 /// What waited for this process to go on is old: nothing is decided on it.

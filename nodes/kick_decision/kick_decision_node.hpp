@@ -33,6 +33,7 @@ class KickDecisionNode {
   void stay_alive();
   bus::ReaderOptions count_observers();
   void say_unobserved();
+  void say_slow(kicking::PolicyName policy, double took_s);
 
   NodeContext& context_;
   DecisionNode which_;
@@ -45,6 +46,7 @@ class KickDecisionNode {
   std::shared_ptr<bus::Mailbox<msg::KickerStatus>> kicker_;
   std::atomic<std::uint32_t> observers_{0};  // writers of kick_outcome, of which none is needed
   bool unobserved_said_ = false;
+  bool slow_said_ = false;
   std::shared_ptr<bus::Mailbox<msg::KickOutcome>> outcome_;
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;  // looked up where the rules know set pieces
   std::shared_ptr<bus::Mailbox<msg::KickerEstimate>> estimate_;

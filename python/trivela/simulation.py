@@ -72,11 +72,13 @@ def simulate(
     matches       of each arm, 1 to 2^20, of `possessions` opportunities each, 1 to 100,000
     calibrations  simulated calibrations that the robots come from, match m with calibration m mod that; 0: robot files
     seed          same seed, same matches
-    jobs          threads, 1 to 1024; the rows do not depend on it. Other threads of Python run meanwhile
+    jobs          threads, 1 to 1024; the rows do not depend on it. Other threads of Python run meanwhile. With a policy in Python one
+                  thread plays: the interpreter's lock would make several slower
     scenario      the world's file; None: the shipped default.toml
     settings      settings of the nodes on top of the file `config` (None: the shipped default.toml), as `world`
     robots        robot files, robot n's at n - 1; (): the shipped calibrated ones
-    out           match log to write, new or of the same call; None: none. Of matches that are in it already there are no rows
+    out           match log to write, new or of the same call; None: none. Matches that are in it already are played once more for their
+                  rows, and not written. With a policy in Python the same call is one of the same process with the same function
     shadows, every_cycle  what the log has besides
     progress      called as progress(done, all, words). What it raises, and Ctrl-C, end the play after the matches under way; the log keeps
                   what was played, and the same call goes on from there

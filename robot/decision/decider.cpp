@@ -48,8 +48,8 @@ Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& mod
       session_(session) {
   for (const PolicyName policy : assignment_.candidates()) {
     if (!facts(policy).needs_program()) continue;
-    throw config::Error{
-        fmt::format("the policy {} is another program's: start that program's decision node", kicking::name(policy))};
+    throw config::Error{fmt::format("the policy {} is another program's: use that program in place of this one",
+                                    kicking::name(policy))};
   }
   memory_.reserve(kicking::policies().size());
   for (std::size_t place = 0; place < kicking::policies().size(); ++place) {

@@ -67,7 +67,7 @@ TEST_F(OwnPolicy, ProgramsWithoutItReadItsSettingsAndRefuseToPlayIt) {
   std::ofstream{folder_ / "own.toml"} << "[policy.own.patient]\nnear_m = 4.0\n\n"
                                          "[kick_decision]\npolicy_by_half = [\"patient\"]\n";
   EXPECT_THAT(refusal("trivela-kick_decision", {"--config", "own.toml"}, 1),
-              HasSubstr("the policy patient is another program's: start that program's decision node"));
+              HasSubstr("the policy patient is another program's: use that program in place of this one"));
   std::ofstream{folder_ / "wrong.toml"} << "[policy.own.patient]\nneer_m = 4.0\n";
   EXPECT_THAT(refusal(TRIVELA_PATIENT, {"kick_decision", "--config", "wrong.toml"}, 1),
               HasSubstr("wrong.toml:2: policy.own.patient.neer_m: unknown key; did you mean near_m?"));
@@ -78,6 +78,49 @@ TEST_F(OwnPolicy, ProgramsWithoutItReadItsSettingsAndRefuseToPlayIt) {
               HasSubstr("\"patient\" is no policy"));
   std::ofstream{folder_ / "capital.toml"} << "[policy.own.Patient]\nnear_m = 4.0\n";
   EXPECT_THAT(refusal("trivela-kick_decision", {"--config", "capital.toml"}, 1), HasSubstr("1 to 31 of a-z"));
+}
+
+TEST_F(OwnPolicy, AnExperimentGoesOnWithTheSameCodeAlone) {
+  const std::vector<std::string> arguments{"simulate",      "--arms", "patient,moving", "--matches", "2",
+                                           "--possessions", "3",      "--robot",        kRobot,      "--out",
+                                           "ab.db"};
+  patient(arguments);
+  EXPECT_THAT(patient(arguments), HasSubstr("2 of 2 matches are in ab.db already"));
+  const auto changed = folder_ / "changed";
+  std::filesystem::copy_file(TRIVELA_PATIENT, changed);
+  std::ofstream{changed, std::ios::app} << "other code";
+  EXPECT_THAT(refusal(changed, arguments, 2), HasSubstr("was begun with other arguments or other code of a policy"));
+  const std::vector<std::string> study{"study", "arms",          "--arms", "moving,patient", "--matches",
+                                       "2",     "--possessions", "3",      "--results",      "r.db"};
+  patient(study);
+  EXPECT_THAT(refusal(changed, study, 2), HasSubstr("other code of a policy"));
+}
+
+TEST_F(OwnPolicy, ANameThatIsMistypedOnTheCommandLineIsRefused) {
+  const std::string said =
+      "policy.own.pateint.near_m=5: this program has no policy pateint of its own; did you mean patient?";
+  EXPECT_THAT(refusal(TRIVELA_PATIENT,
+                      {"simulate", "--arms", "patient", "--set", "policy.own.pateint.near_m=5", "--out", "x.db"}, 2),
+              HasSubstr(said));
+  EXPECT_THAT(refusal(TRIVELA_PATIENT,
+                      {"match", "--half", "patient", "--set", "policy.own.pateint.near_m=5", "--out", "x.db"}, 2),
+              HasSubstr(said));
+  EXPECT_THAT(refusal("trivela", {"simulate", "--arms", "moving", "--set", "policy.own.patient.near_m=5"}, 2),
+              HasSubstr("this program has no policy patient of its own"));
+}
+
+TEST_F(OwnPolicy, ThatFailsIsNamedAndThatHangsIsEndedByTheSecondSignal) {
+  EXPECT_THAT(refusal(TRIVELA_ODD_POLICIES, {"simulate", "--arms", "throws", "--matches", "1", "--out", "x.db"}, 1),
+              HasSubstr("policy throws: an idea that was none"));
+  EXPECT_THAT(refusal(TRIVELA_ODD_POLICIES, {"Capital"}, 2), HasSubstr("trivela: policy \"Capital\": 1 to 31 of a-z"));
+  Program hangs{TRIVELA_ODD_POLICIES, {"simulate", "--arms", "hangs", "--jobs", "2", "--out", "y.db"}, folder_.path()};
+  ASSERT_TRUE(
+      wait_for_change(folder_.path(), hangs.watch(), [&] { return std::filesystem::exists(folder_ / "hangs"); }));
+  hangs.signal(SIGINT);
+  ASSERT_TRUE(wait_for_change(folder_.path(), hangs.watch(),
+                              [&] { return hangs.errors().find("once more stops at once") != std::string::npos; }));
+  hangs.signal(SIGTERM);
+  EXPECT_EQ(hangs.wait(), 128 + SIGTERM);
 }
 
 TEST_F(OwnPolicy, IsTunedByItsOwnSettings) {

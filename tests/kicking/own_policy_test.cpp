@@ -137,6 +137,25 @@ TEST(OwnPolicy, ThatReturnsNonsenseNeitherKicksNorDrives) {
   }
 }
 
+TEST(OwnPolicy, ThatThrowsIsNamedAndItsExceptionKept) {
+  struct Throwing final : PolicyOf<PossessionMemory> {
+    Throwing() : PolicyOf("throwing") {}
+    PolicyOutput evaluate(const PolicyConfig&, const RobotModel&, const Goal&, const PolicyInput&,
+                          PossessionMemory&) const override {
+      throw std::out_of_range("no such corner");
+    }
+  };
+  const PolicyName throwing = register_policy(std::make_unique<Throwing>());
+  PolicyMemory memory;
+  try {
+    evaluate(throwing, {}, {}, {}, ready(), memory);
+    FAIL() << "it must throw";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "policy throwing: no such corner");
+    EXPECT_THROW(std::rethrow_if_nested(error), std::out_of_range);
+  }
+}
+
 TEST(OwnPolicy, AMemoryIsCopiedWithWhatItHolds) {
   PolicyMemory memory;
   evaluate(eager(), {}, {}, {}, ready(), memory);

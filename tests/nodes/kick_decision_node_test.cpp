@@ -1,5 +1,6 @@
 #include "nodes/kick_decision/kick_decision_node.hpp"
 
+#include <atomic>
 #include <cmath>
 #include <ctime>
 #include <limits>
@@ -67,6 +68,26 @@ TEST_F(KickDecisionNodeTest, SaysWithItsFirstOrderThatNobodyObservesKicks) {
   cycle(world());
   order.nth(1);
   EXPECT_TRUE(log_lines->wait_for("nobody writes kick_outcome: no shot_observer runs"));
+}
+
+/// Takes 30 ms by the test's clock.
+struct Slow final : kicking::PolicyOf<kicking::PossessionMemory> {
+  explicit Slow(std::atomic<std::int64_t>& clock) : PolicyOf("slow"), clock_ns(clock) {}
+  kicking::PolicyOutput evaluate(const kicking::PolicyConfig&, const kicking::RobotModel&, const kicking::Goal&,
+                                 const kicking::PolicyInput&, kicking::PossessionMemory&) const override {
+    clock_ns += 30'000'000;
+    return {};
+  }
+  std::atomic<std::int64_t>& clock_ns;
+};
+
+TEST_F(KickDecisionNodeTest, NamesOnceAPolicyThatTakesLongerThanACycle) {
+  context.settings.kick_decision.policy_by_half = {kicking::register_policy(std::make_unique<Slow>(clock_ns))};
+  start();
+  cycle(world());
+  cycle(world());
+  EXPECT_TRUE(log_lines->wait_for("a decision of slow took 30 ms, and a cycle is 20 ms"));
+  EXPECT_EQ(log_lines->count("a decision of"), 1u);
 }
 
 TEST_F(KickDecisionNodeTest, OrdersAKickWhenTheRobotIsAligned) {

@@ -1,3 +1,5 @@
+import threading
+
 import numpy
 import pytest
 import trivela
@@ -83,6 +85,34 @@ def test_what_it_raises_ends_the_play_and_is_raised(tmp_path):
         trivela.simulate("fails", **SMALL, jobs=2, out=tmp_path / "part.db")
     trivela.register_policy("fails", lambda cycle, memory: cycle.moving())
     assert len(trivela.simulate("fails", **SMALL)) == 15, "the same name again replaces the function"
+
+
+def test_a_log_goes_on_with_the_same_function_alone(tmp_path):
+    trivela.register_policy("steady", lambda cycle, memory: cycle.moving())
+    rows = trivela.simulate("steady,moving", **SMALL, out=tmp_path / "ab.db")
+    assert trivela.simulate("steady,moving", **SMALL, out=tmp_path / "ab.db").tobytes() == rows.tobytes()
+    trivela.register_policy("steady", lambda cycle, memory: cycle.stopped())
+    with pytest.raises(RuntimeError, match="was begun with other arguments or other code of a policy"):
+        trivela.simulate("steady,moving", **SMALL, out=tmp_path / "ab.db")
+
+
+def test_one_thread_plays_it_whatever_jobs_is():
+    threads = set()
+
+    def notes(cycle, memory):
+        threads.add(threading.get_ident())
+        return cycle.moving()
+
+    trivela.register_policy("notes", notes)
+    trivela.simulate("moving,notes", matches=8, possessions=3, jobs=4)
+    assert threads == {threading.get_ident()}
+
+
+def test_a_setting_of_a_policy_that_is_not_there_is_refused_and_its_name_stays_free():
+    with pytest.raises(ValueError, match="this program has no policy later of its own"):
+        trivela.simulate("moving", **SMALL, settings=["policy.own.later.near_m = 4.0"])
+    trivela.register_policy("later", lambda cycle, memory: cycle.moving(), {"near_m": (4.5, 0.0, 20.0)})
+    assert len(trivela.simulate("later", **SMALL, settings=["policy.own.later.near_m = 4.0"])) == 15
 
 
 def test_outputs_that_cannot_be_are_refused_in_a_sentence():
