@@ -52,7 +52,7 @@ void BusSnapshot::hear(const std::string& topic, std::uint8_t robot_id, const He
   if (found == topics_.end()) return;
   auto stream = found->robots.find(robot_id);
   if (stream == found->robots.end()) {
-    if (found->robots.size() >= kMostRobots) return;  // strangers may say any number
+    if (found->robots.size() >= kMostRobots) return;  // anybody may say any number
     stream = found->robots.emplace(robot_id, StreamStatistics{found->about.period_s}).first;
   }
   stream->second.see(robot_id, heard);

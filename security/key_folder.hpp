@@ -18,7 +18,7 @@ namespace trivela::security {
 ///                  and NODE.pem, NODE.key, NODE.p7s of each node; robot_0 is the base's
 ///     robot_N/team the same for the bus between the machines, with team_bus.{pem,key,p7s} alone
 ///
-/// Each robot has an identity authority of its own: a node of another robot is a stranger there, whatever it may do at
+/// Each robot has an identity authority of its own: a node of another robot is unknown there, whatever it may do at
 /// home. On the team's bus all have one authority in common, which nobody asks anywhere else. Every function writes a
 /// robot's folder again beside the old one and then puts it in its place; throws std::runtime_error,
 /// std::invalid_argument (a kind of node that is none) or std::filesystem::filesystem_error.

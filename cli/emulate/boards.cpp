@@ -138,8 +138,7 @@ int emulate_ioboard(const EmulateBoardFlags& flags) {
 int emulate_rekick(const EmulateBoardFlags& flags) {
   hal::rekick::EmulatedFaults faults;
   int unplug_s = 0;
-  take_faults(flags.faults,
-              {{"lost", &faults.lost_every}, {"strangers", &faults.strangers_every}, {"unplug", &unplug_s}});
+  take_faults(flags.faults, {{"lost", &faults.lost_every}, {"foreign", &faults.foreign_every}, {"unplug", &unplug_s}});
   SignalInbox signals;
   hal::rekick::Emulator emulator;
   emulator.with_board([&](hal::rekick::EmulatedBoard& board) {
@@ -241,7 +240,7 @@ void add_ioboard(CLI::App& app, int& exit_code) {
 
 void add_rekick(CLI::App& app, int& exit_code) {
   add_board(app, exit_code, "rekick", "A ReKick board, behind a SOCK_SEQPACKET socket in place of a CAN bus",
-            "lost=N: so is each N-th answer; strangers=N: before it another device speaks", emulate_rekick);
+            "lost=N: so is each N-th answer; foreign=N: before it another device sends a frame", emulate_rekick);
 }
 
 void add_cia402(CLI::App& app, int& exit_code) {

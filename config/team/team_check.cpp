@@ -97,7 +97,7 @@ class TeamCheck {
     } else if (*group >> 8 == 0xE00000) {
       wrong("belongs to the routers' own protocols");
     } else if (t.group == "239.255.0.1") {
-      wrong("is the default of DDS, by which strangers speak; the league's are 224.16.32.N");
+      wrong("is the default of DDS, which other teams may use; the league's are 224.16.32.N");
     }
   }
 

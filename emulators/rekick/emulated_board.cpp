@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kBattery_v = 24.0;
 constexpr std::int64_t kNsPerUs = 1000;
-const can::Frame kStranger = can::extended_frame(0x40A000, {0xF2, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF});  // a ball handler
+const can::Frame kForeign = can::extended_frame(0x40A000, {0xF2, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF});  // a ball handler
 
 std::uint16_t word_of(const can::Frame& frame) {
   return static_cast<std::uint16_t>(frame.data[1] + (frame.size > 2 ? 256 * frame.data[2] : 0));
@@ -78,7 +78,7 @@ void EmulatedBoard::kick(std::uint16_t pulse_us, std::int64_t now_ns) {
 
 void EmulatedBoard::answer(const can::Frame& frame, std::vector<std::string>& said) {
   ++answers_;
-  if (hits(faults.strangers_every)) said.push_back(can::encode(kStranger));
+  if (hits(faults.foreign_every)) said.push_back(can::encode(kForeign));
   if (!faults.silent && !hits(faults.lost_every)) said.push_back(can::encode(frame));
 }
 

@@ -16,9 +16,9 @@ namespace trivela::hal::rekick {
 /// What an emulated board is told to do wrong.
 struct EmulatedFaults {
   bool silent = false;
-  bool error = false;       ///< its error flag
-  int lost_every = 0;       ///< each such answer is not sent
-  int strangers_every = 0;  ///< before each such answer another device of the bus speaks
+  bool error = false;     ///< its error flag
+  int lost_every = 0;     ///< each such answer is not sent
+  int foreign_every = 0;  ///< before each such answer another device of the bus speaks
 };
 
 /// The behaviour of a ReKick board, as far as its host's source tells it; the firmware is not public. Assumed: the

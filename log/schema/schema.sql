@@ -369,7 +369,7 @@ CREATE TABLE kick_receipts (               -- the driver's answer to an order
   accepted INTEGER NOT NULL CHECK (accepted IN (0, 1)), -- 1: the device was told, or may have been
   refusal TEXT NOT NULL CHECK (refusal = 'none' OR refusal = 'stale' OR refusal = 'out_of_range'
     OR refusal = 'unarmed' OR refusal = 'double' OR refusal = 'charging' OR refusal = 'fault'
-    OR refusal = 'referee_silent' OR refusal = 'no_ball' OR refusal = 'stranger' OR refusal = 'not_known'
+    OR refusal = 'referee_silent' OR refusal = 'no_ball' OR refusal = 'unauthorised' OR refusal = 'not_known'
     OR refusal = 'lever'), -- why it was refused; not_known: accepted, and nobody knows whether it fired
   order_t_ns INTEGER NOT NULL,             -- t_ns of the order
   fired_t_ns INTEGER NOT NULL,             -- coil energised; 0: refused

@@ -39,8 +39,8 @@ void refuse_oracle(const robot::PolicyAssignment& assignment) {
 void refuse_second(const NodeContext& context, DecisionNode which) {
   if (which == DecisionNode::kFirst || context.settings.kick_decision.standby) return;
   throw std::runtime_error{
-      "kick_decision.standby = false: this robot has one decision node, and its driver would take the second's orders "
-      "for a stranger's"};
+      "kick_decision.standby = false: this robot has one decision node, and its driver would refuse the second's "
+      "orders as unauthorised"};
 }
 
 /// Of a robot with two, so that the second one's orders are heard when the first is silent for 60 ms.

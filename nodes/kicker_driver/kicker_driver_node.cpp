@@ -68,7 +68,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
   }
   node_.on<msg::KickOrder>(
       [this](const msg::KickOrder& order, const bus::SampleInfo& info) {
-        on_order(order, by_own_decision(info) ? robot::OrderBy::kOwnDecision : robot::OrderBy::kStranger);
+        on_order(order, by_own_decision(info) ? robot::OrderBy::kOwnDecision : robot::OrderBy::kUnauthorised);
       },
       bus::writes<msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge, msg::StepDone>(), orders);
 }

@@ -80,7 +80,7 @@ std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string&
 }
 
 /// A secured node that hears of others before its own identity stands says that it does not know them yet; a moment
-/// later it does. Strangers are told in other words.
+/// later it does. Of an unauthorised one it says something else.
 spdlog::level::level_enum level_of(bool severe, std::string_view text) {
   if (severe) return spdlog::level::err;
   const bool of_the_start = text.starts_with("Remote secure participant") && text.find("not allowed") != text.npos;

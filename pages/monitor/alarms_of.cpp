@@ -106,8 +106,8 @@ Alarms alarms_of(const SceneState& state, std::int64_t now_ns) {
     alarms[fmt::format("{}/missed/{}", id, topic)] =
         fmt::format("robot {}: this page missed {} of {}", id, how_many, topic);
   }
-  if (state.strangers > 0)
-    alarms["strangers"] =
+  if (state.not_shown > 0)
+    alarms["not_shown"] =
         fmt::format("messages of more than {} robots, or of robot 0: not shown", MatchScene::kMostRobots);
   return alarms;
 }

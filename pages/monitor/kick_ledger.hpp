@@ -100,7 +100,7 @@ struct GoalRules {
 /// of all), the last outcome.
 class KickLedger {
  public:
-  static constexpr std::size_t kMostKicks = 10'000;  ///< a stranger may say any number of them
+  static constexpr std::size_t kMostKicks = 10'000;  ///< any participant may say any number of them
 
   explicit KickLedger(const GoalRules& rules = {}) : rules_(rules) {}
 

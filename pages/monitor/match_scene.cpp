@@ -19,7 +19,7 @@ MatchScene::MatchScene(SceneSettings settings) : state_(std::move(settings)) {
 bool MatchScene::has_place(std::uint8_t robot_id) {
   if (robot_id != 0 && state_.robots.contains(robot_id)) return true;
   if (robot_id == 0 || state_.robots.size() >= kMostRobots) {
-    ++state_.strangers;
+    ++state_.not_shown;
     return false;
   }
   state_.robots[robot_id];

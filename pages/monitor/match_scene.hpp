@@ -37,7 +37,7 @@ struct SceneState {
   ActiveAlarms alarms;
   std::set<std::string> simulated;  ///< what says so; empty: nothing
   std::vector<std::string> nodes;   ///< programs that are there
-  std::int64_t strangers = 0;       ///< messages of robots that found no place
+  std::int64_t not_shown = 0;       ///< messages of robots that found no place
   bool over = false;                ///< nothing more comes, and that is as it should be
 
   explicit SceneState(SceneSettings given) : settings(std::move(given)), kicks(settings.goal_rules) {}
@@ -47,7 +47,7 @@ struct SceneState {
 /// clock. The simulator's truth is none of its inputs.
 class MatchScene {
  public:
-  static constexpr std::size_t kMostRobots = 16;  // strangers may say any number
+  static constexpr std::size_t kMostRobots = 16;  // anybody may say any number
 
   explicit MatchScene(SceneSettings settings);
 

@@ -62,7 +62,7 @@ msg::Refusal OrderGate::disarmed() const {
 }
 
 msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) const {
-  if (by == OrderBy::kStranger) return msg::REFUSAL_STRANGER;
+  if (by == OrderBy::kUnauthorised) return msg::REFUSAL_UNAUTHORISED;
   if (sample_ && !sound(now_t_ns)) return msg::REFUSAL_FAULT;
   const bool kind_known = order.kick_kind < powers_.size();
   if (!kind_known || !powers_[order.kick_kind].contains(order.power) || order.kick_id <= 0)
@@ -83,7 +83,7 @@ msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_n
 msg::Refusal OrderGate::judge(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) {
   const msg::Refusal refusal = reason(order, now_t_ns, by);
   ++handled_;
-  if (by == OrderBy::kStranger) {
+  if (by == OrderBy::kUnauthorised) {
     ++refused_;
     return refusal;
   }

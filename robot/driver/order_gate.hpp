@@ -16,7 +16,7 @@
 namespace trivela::robot {
 
 /// Who wrote an order. In one process, without a bus, there is nobody else.
-enum class OrderBy { kOwnDecision, kStranger };
+enum class OrderBy { kOwnDecision, kUnauthorised };
 
 /// The last word on every order: the one place that decides whether the coil may be energised.
 ///
@@ -34,8 +34,8 @@ enum class OrderBy { kOwnDecision, kStranger };
 /// - the capacitor holds min_charge_ratio;
 /// - the lever stands for its kind of kick.
 ///
-/// A refused order keeps nobody's kick_id: it is known again only as a whole, and then it is a double. A stranger's
-/// order is counted and leaves nothing else behind.
+/// A refused order keeps nobody's kick_id: it is known again only as a whole, and then it is a double. An
+/// unauthorised order is counted and leaves nothing else behind.
 class OrderGate {
  public:
   /// How many accepted orders, and how many refused ones, are known again.

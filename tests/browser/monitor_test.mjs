@@ -162,7 +162,7 @@ test('names that mean no good stay text, and a token is asked for', async () => 
   assert.match(await page.textContent('#title'), new RegExp(bad.replace(/[()]/g, '\\$&')));
   assert.equal(await page.textContent('#kicks tbody th'), `1 ${worse}`);
   assert.equal(await page.textContent('#robots .name'), `1 ${worse}`);
-  assert.equal(await page.$$eval('img, script:not([src])', (strangers) => strangers.length), 0);
+  assert.equal(await page.$$eval('img, script:not([src])', (found) => found.length), 0);
   await page.reload();
   await live(page);
   assert.deepEqual(await findings(page), []);

@@ -20,9 +20,9 @@ DomainConfig with_tag(DomainConfig config, const std::string& tag) {
 // Both hear the one in the middle's domain id and ports; only the tag tells them apart.
 TEST(Isolation, TwoTagsInOneDomainNeverHearEachOther) {
   const auto wire = fresh_wire_pair();
-  const auto stranger_config = with_tag({wire.b.domain_id % 100 + 1, wire.b.xml}, "stranger");
-  ASSERT_NE(stranger_config.xml, wire.b.xml);
-  Reader<msg::Referee> stranger{Participant(stranger_config)};
+  const auto other_config = with_tag({wire.b.domain_id % 100 + 1, wire.b.xml}, "other");
+  ASSERT_NE(other_config.xml, wire.b.xml);
+  Reader<msg::Referee> other{Participant(other_config)};
   Writer<msg::Referee> writer{Participant(wire.a)};
   msg::Referee referee{};
   referee.robot_id = 1;
@@ -30,8 +30,8 @@ TEST(Isolation, TwoTagsInOneDomainNeverHearEachOther) {
   // A reader of the same tag that came later has long matched and been served.
   Reader<msg::Referee> friendly{Participant(wire.b)};
   ASSERT_TRUE(friendly.wait(seconds(10)));
-  EXPECT_FALSE(stranger.wait(milliseconds(100)));
-  EXPECT_EQ(stranger.writers(), 0u);
+  EXPECT_FALSE(other.wait(milliseconds(100)));
+  EXPECT_EQ(other.writers(), 0u);
   EXPECT_EQ(writer.readers(), 1u);
 }
 

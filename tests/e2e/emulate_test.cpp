@@ -48,7 +48,7 @@ TEST_F(Emulate, AnIoBoardIsFoundAtTheAddressThatItPrintsAndSaysItsPulses) {
 }
 
 TEST_F(Emulate, AReKickIsFoundAtTheAddressThatItPrintsAndSaysItsPulses) {
-  Program trivela{"trivela-emulate", {"rekick", "--faults", "lost=7,strangers=2"}, folder_.path()};
+  Program trivela{"trivela-emulate", {"rekick", "--faults", "lost=7,foreign=2"}, folder_.path()};
   ASSERT_TRUE(says(trivela, "\n")) << trivela.errors();
   const config::ReKickDevice settings{.port = trivela.output().substr(0, trivela.output().find('\n'))};
   hal::BoardKicker kicker{std::make_unique<hal::rekick::ReKick>(hal::can::can_line(settings.port), settings)};

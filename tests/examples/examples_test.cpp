@@ -1,4 +1,4 @@
-// The programs of examples/, as a stranger runs them.
+// The programs of examples/, as a new user runs them.
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -89,7 +89,7 @@ void AirFlood::scramble(std::vector<std::uint8_t>& packet, std::size_t from, std
 }
 
 // The announcement of a participant that is not there.
-std::vector<std::uint8_t> AirFlood::stranger() {
+std::vector<std::uint8_t> AirFlood::unknown_participant() {
   const auto fits = [&](const auto& packet) {
     return kind_ == kUndying ? lease_of(packet).has_value() : announces(packet);
   };
@@ -97,7 +97,7 @@ std::vector<std::uint8_t> AirFlood::stranger() {
   for (int tries = 0; !fits(packet) && tries < 100; ++tries) packet = any();
   const std::vector<std::uint8_t> before(packet.begin() + kGuidPrefix, packet.begin() + kRtpsHeader);
   scramble(packet, kGuidPrefix, kRtpsHeader);
-  // The same stranger inside, where the announcement names itself.
+  // The same participant inside, where the announcement names itself.
   const std::vector<std::uint8_t> prefix(packet.begin() + kGuidPrefix, packet.begin() + kRtpsHeader);
   for (auto at = packet.begin() + kRtpsHeader;;) {
     at = std::search(at, packet.end(), before.begin(), before.end());
@@ -110,7 +110,7 @@ std::vector<std::uint8_t> AirFlood::stranger() {
 }
 
 std::vector<std::uint8_t> AirFlood::next() {
-  if (kind_ == kUndying) return stranger();
+  if (kind_ == kUndying) return unknown_participant();
   std::vector<std::uint8_t> packet = any();
   switch (turn_++ % 4) {
     case 0:
@@ -124,7 +124,7 @@ std::vector<std::uint8_t> AirFlood::next() {
       scramble(packet, kRtpsHeader, packet.size());
       return packet;
     default:
-      return stranger();
+      return unknown_participant();
   }
 }
 

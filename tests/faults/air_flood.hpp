@@ -45,7 +45,7 @@ class AirFlood {
   void run();
   const std::vector<std::uint8_t>& any() { return overheard_[random_() % overheard_.size()]; }
   void scramble(std::vector<std::uint8_t>& packet, std::size_t from, std::size_t to);
-  std::vector<std::uint8_t> stranger();
+  std::vector<std::uint8_t> unknown_participant();
   std::vector<std::uint8_t> next();
 
   const std::vector<std::string> targets_;

@@ -31,8 +31,8 @@ const std::vector<std::string> kNodes{"trivela-odometry",      "trivela-world_st
 
 TEST_F(Attackers, OrdersForgedOnAnotherMachineReachARobotThatHasNoKeysFromItsOwnLoopbackAlone) {
   ASSERT_NO_FATAL_FAILURE(kick_off(false));
-  const Packets forged = forged_orders(team->stranger(), config::TeamDomains{}.robot, team->tag(1));
-  send(team->stranger(), "10.77.0.1", forged);
+  const Packets forged = forged_orders(team->attacker(), config::TeamDomains{}.robot, team->tag(1));
+  send(team->attacker(), "10.77.0.1", forged);
   EXPECT_EQ(heard(), 0);
   EXPECT_TRUE(plays_on());
   send(team->host(1), "127.0.0.1", forged);
@@ -43,8 +43,8 @@ TEST_F(Attackers, OrdersForgedOnAnotherMachineReachARobotThatHasNoKeysFromItsOwn
 
 TEST_F(Attackers, OrdersForgedOnTheLoopbackOfARobotWithKeysAreHeardByNobody) {
   ASSERT_NO_FATAL_FAILURE(kick_off(true));
-  const Packets forged = forged_orders(team->stranger(), config::TeamDomains{}.robot, team->tag(1));
-  send(team->stranger(), "10.77.0.1", forged);
+  const Packets forged = forged_orders(team->attacker(), config::TeamDomains{}.robot, team->tag(1));
+  send(team->attacker(), "10.77.0.1", forged);
   send(team->host(1), "127.0.0.1", forged);
   EXPECT_EQ(heard(), 0);
   EXPECT_TRUE(plays_on());
@@ -128,7 +128,7 @@ TEST_F(Attackers, WhoHasNoIdentityOfTheTeamIsHeardByNobodyOnItsNetwork) {
       {"another team's base", bus::secured(plain, others.robot(0) / "team", "team_bus")},
       {"a robot's own team_link, by its identity of the robot's bus", bus::secured(plain, keys.robot(1), "team_link")}};
   for (const auto& [name, domain] : attackers)
-    on_host(team->stranger(), [&] {
+    on_host(team->attacker(), [&] {
       bus::Writer<msg::Referee> forged{bus::Participant{domain}};
       for (int time = 0; time < 30; ++time) {
         msg::Referee word{};
@@ -199,7 +199,7 @@ TEST_F(Attackers, AFloodFromAnotherMachineChangesNoWordOfASecuredTeamAndALinkTha
   LaunchedLinks links{*team};
   std::map<int, Memory> memory;  // by process
   {
-    const AirFlood flood{team->stranger(),           {"10.77.0.100", "10.77.0.1", "10.77.0.2", "224.16.32.39"},
+    const AirFlood flood{team->attacker(),           {"10.77.0.100", "10.77.0.1", "10.77.0.2", "224.16.32.39"},
                          config::TeamDomains{}.team, 1,
                          team->hub().overheard(),    1};
     during_flood(*team, [&] {
@@ -228,16 +228,16 @@ TEST_F(Attackers, AFloodFromAnotherMachineChangesNoWordOfASecuredTeamAndALinkTha
   team->stop();
 }
 
-/// By hand, after 100 s, the strangers' handshakes run out, which can break the library's
+/// By hand, after 100 s, the unknown participants' handshakes run out, which can break the library's
 /// (nodes/runtime/flood_watch.hpp).
-TEST_F(Attackers, StrangersWhoWantToBeRememberedForEverGetNoMoreOfTheMemoryThanALinkMayTakeAndItIsBack) {
+TEST_F(Attackers, ParticipantsThatWantToBeRememberedForEverGetNoMoreOfTheMemoryThanALinkMayTakeAndItIsBack) {
   const bool long_one = flood_length() > seconds{10};
   const std::int64_t limit_mb = long_one ? 1024 : 48;
   ASSERT_NO_FATAL_FAILURE(start_team(true, {fmt::format("run.memory_limit_mb={}", limit_mb)}));
   LaunchedLinks links{*team};
   std::int64_t most = 0;
   {
-    const AirFlood flood{team->stranger(),           {"10.77.0.100", "10.77.0.1", "10.77.0.2", "224.16.32.39"},
+    const AirFlood flood{team->attacker(),           {"10.77.0.100", "10.77.0.1", "10.77.0.2", "224.16.32.39"},
                          config::TeamDomains{}.team, 1,
                          team->hub().overheard(),    1,
                          AirFlood::kUndying};

@@ -142,8 +142,8 @@ class Campaign {
     } else {
       trouble_process(fault, trial);
     }
-    // While a stranger is stronger nobody else is heard; from now on kick_decision has to be.
-    if (fault.insists == Insists::kStranger) stack_.insist(Insists::kNobody);
+    // While an unauthorised writer is stronger nobody else is heard; from now on kick_decision has to be.
+    if (fault.insists == Insists::kUnauthorised) stack_.insist(Insists::kNobody);
     recover(trial);
     stack_.insist(Insists::kNobody);
     trial.whole_ns = now_ns();

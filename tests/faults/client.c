@@ -1,6 +1,6 @@
 // fault_client DOMAIN_ID: somebody else's decision loop that insists: an order every 60 ms, each fresh and lawful by
 // itself, with more strength than kick_decision's, so that the driver always has one before it, whatever befalls the
-// chain behind it. SIGRTMIN with a value: 1 begins in kick_decision's name, 2 as a stranger, whose orders nobody may
+// chain behind it. SIGRTMIN with a value: 1 begins in kick_decision's name, 2 unauthorised, whose orders nobody may
 // fire, 0 leaves off, as it is at first. Its clock is that of world_state.
 #include <dds/dds.h>
 #include <errno.h>
@@ -67,7 +67,7 @@ static void listen_to_world(dds_entity_t participant) {
   dds_delete_qos(qos);
 }
 
-static dds_entity_t order_writer(dds_entity_t participant, dds_entity_t topic, bool stranger) {
+static dds_entity_t order_writer(dds_entity_t participant, dds_entity_t topic, bool unauthorised) {
   dds_qos_t* qos = dds_create_qos();
   dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
   dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
@@ -75,13 +75,13 @@ static dds_entity_t order_writer(dds_entity_t participant, dds_entity_t topic, b
   dds_qset_ownership(qos, DDS_OWNERSHIP_EXCLUSIVE);
   dds_qset_ownership_strength(qos, kStrength);
   dds_qset_writer_data_lifecycle(qos, false);
-  if (!stranger) dds_qset_userdata(qos, kDecision, strlen(kDecision));
+  if (!unauthorised) dds_qset_userdata(qos, kDecision, strlen(kDecision));
   const dds_entity_t writer = checked(dds_create_writer(participant, topic, qos, NULL), "writer");
   dds_delete_qos(qos);
   return writer;
 }
 
-static void order(dds_entity_t writer, uint64_t seq, bool stranger) {
+static void order(dds_entity_t writer, uint64_t seq, bool unauthorised) {
   pthread_mutex_lock(&g_mutex);
   const bool heard = g_heard;
   const int64_t t_ns = now_ns() + g_ahead_ns;
@@ -92,7 +92,7 @@ static void order(dds_entity_t writer, uint64_t seq, bool stranger) {
       .seq = seq,
       .t_ns = t_ns,
       // session (15 bit), robot (8 bit), counter (40 bit); no session of kick_decision's is so high by much chance
-      .kick_id = (int64_t)(stranger ? 0x7ffe : 0x7fff) << 48 | (int64_t)kRobot << 40 | (int64_t)seq,
+      .kick_id = (int64_t)(unauthorised ? 0x7ffe : 0x7fff) << 48 | (int64_t)kRobot << 40 | (int64_t)seq,
       .power = kPower,
       .fire_t_ns = t_ns,
       .valid_until_t_ns = t_ns + kValidity_ns,
@@ -116,18 +116,18 @@ int main(int argc, char** argv) {
   listen_to_world(participant);
   const struct timespec period = {.tv_nsec = kPeriod_ms * 1000000L};
   dds_entity_t writer = 0;
-  bool stranger = false;
+  bool unauthorised = false;
   for (uint64_t seq = 0;;) {
     siginfo_t told;
     const bool asked = sigtimedwait(&ours, &told, &period) == SIGRTMIN;
     if (asked && told.si_value.sival_int > 0 && writer == 0) {
-      stranger = told.si_value.sival_int == 2;
-      writer = order_writer(participant, topic, stranger);
+      unauthorised = told.si_value.sival_int == 2;
+      writer = order_writer(participant, topic, unauthorised);
     } else if (asked && told.si_value.sival_int == 0 && writer > 0) {
       dds_delete(writer);
       writer = 0;
     } else if (writer > 0) {
-      order(writer, ++seq, stranger);
+      order(writer, ++seq, unauthorised);
     }
   }
 }

@@ -28,7 +28,7 @@ TEST_P(KickerCampaign, NoPulseWithoutALawfulFreshOrderInPlayAndAReceiptOrACounte
   for (std::uint64_t round = 0; round < rounds; ++round) {
     const Trouble what = troubles[round % troubles.size()];
     SCOPED_TRACE(fmt::format("round {}, {}", round, name(what)));
-    rig.strangers();
+    rig.unauthorised_orders();
     rig.let_play(random() % 4 != 0);
     rig.suffer(what, static_cast<std::int64_t>(50 + random() % 450) * kMs);
     rig.let_play(true);

@@ -32,8 +32,9 @@ std::string lateness(const FireSeen& fire, const OrderSeen& order, const FireRul
 }
 
 std::optional<Finding> judge_order(const FireSeen& fire, const OrdersById& orders, const FireRules& rules) {
-  constexpr std::int64_t kStrangers = 0x7ffe;  // session of fault_client's ids, where it orders as a stranger
-  if (fire.kick_id >> 48 == kStrangers) return Finding{Offence::kStranger, fire, "a stranger ordered it"};
+  constexpr std::int64_t kUnauthorisedSession = 0x7ffe;  // session of fault_client's ids, where it orders unauthorised
+  if (fire.kick_id >> 48 == kUnauthorisedSession)
+    return Finding{Offence::kUnauthorised, fire, "an unauthorised client ordered it"};
   const auto [begin, end] = orders.equal_range(fire.kick_id);
   if (begin == end) return Finding{Offence::kNoOrder, fire, "no order of this id was seen"};
   std::string why;
@@ -91,8 +92,8 @@ const char* name(Offence offence) {
   switch (offence) {
     case Offence::kNoOrder:
       return "without an order";
-    case Offence::kStranger:
-      return "for a stranger";
+    case Offence::kUnauthorised:
+      return "for an unauthorised client";
     case Offence::kStale:
       return "after its order's time";
     case Offence::kTwice:

@@ -10,14 +10,14 @@ namespace trivela::faults {
 
 /// What a fire may be judged for.
 enum class Offence {
-  kNoOrder,      ///< nobody saw an order of this id
-  kStranger,     ///< its order was a stranger's
-  kStale,        ///< its order was too old, or no longer valid
-  kTwice,        ///< this id was fired before
-  kStopped,      ///< the referee had stopped the game
-  kSilent,       ///< the referee had said nothing for long
-  kTooSoon,      ///< after the fire before it
-  kCarriedLate,  ///< the device kicked long after the order
+  kNoOrder,       ///< nobody saw an order of this id
+  kUnauthorised,  ///< its order was an unauthorised client's
+  kStale,         ///< its order was too old, or no longer valid
+  kTwice,         ///< this id was fired before
+  kStopped,       ///< the referee had stopped the game
+  kSilent,        ///< the referee had said nothing for long
+  kTooSoon,       ///< after the fire before it
+  kCarriedLate,   ///< the device kicked long after the order
 };
 
 /// How the offence stands in a table.

@@ -49,13 +49,13 @@ TEST(FireRules, AFireNeedsAnOrderOfItsIdThatOneOfTheWitnessesSaw) {
   EXPECT_THAT(offences(device, wire), IsEmpty());
 }
 
-TEST(FireRules, AStrangersOrderIsNone) {
+TEST(FireRules, AnUnauthorisedOrderIsNone) {
   constexpr std::int64_t kId = std::int64_t{0x7ffe} << 48 | 1;
   Testimony device;
   device.words = playing_until(2000);
   device.orders = {order(kId, 1000)};
   device.fires = {fire(kId, 1005)};
-  EXPECT_THAT(offences(device), ElementsAre(Offence::kStranger));
+  EXPECT_THAT(offences(device), ElementsAre(Offence::kUnauthorised));
 }
 
 TEST(FireRules, AnOrderIsTooOldAfterItsValidityAndAtMostACycleIsAllowedToTheWire) {

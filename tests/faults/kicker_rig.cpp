@@ -73,13 +73,14 @@ void KickerRig::order() {
   write_order(decision_, draw < 3 ? OrderKind::kLawful : static_cast<OrderKind>(draw - 2));
 }
 
-void KickerRig::strangers() {
-  bus::Writer<msg::KickOrder> stranger{
+void KickerRig::unauthorised_orders() {
+  bus::Writer<msg::KickOrder> unauthorised{
       participant_, {.period = {}, .lease = std::chrono::hours{1}, .strength = 10, .owner = "somebody"}};
-  if (!stranger.wait_for_readers(1, std::chrono::seconds{5})) throw std::runtime_error{"nobody hears a stranger"};
+  if (!unauthorised.wait_for_readers(1, std::chrono::seconds{5}))
+    throw std::runtime_error{"nobody receives the unauthorised orders"};
   for (int i = 0; i < 4; ++i) {
     say();
-    write_order(stranger, OrderKind::kStrangers);
+    write_order(unauthorised, OrderKind::kUnauthorised);
     board_->wait_for_pulse(board_->pulses().size(), kBetweenOrders);
   }
 }

@@ -32,7 +32,7 @@ class KickerRig {
   void let_play(bool playing) { playing_ = playing; }
 
   /// Somebody with more strength than the decision node, who alone is heard meanwhile.
-  void strangers();
+  void unauthorised_orders();
 
   /// Something befalls board or driver for so long, after which all is well again.
   void suffer(Trouble what, std::int64_t for_ns);

@@ -12,7 +12,7 @@
 namespace trivela::faults {
 
 /// What an order is made of, and whether anybody may fire it.
-enum class OrderKind { kLawful, kStale, kWithoutBall, kOutOfRange, kStrangers };
+enum class OrderKind { kLawful, kStale, kWithoutBall, kOutOfRange, kUnauthorised };
 
 struct Ordered {
   std::int64_t t_ns = 0;

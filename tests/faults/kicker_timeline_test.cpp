@@ -30,8 +30,8 @@ TEST(KickerTimeline, AFreshLawfulOrderInPlayIsFired) {
   EXPECT_EQ(judged.kicks[0].kick_id, 7);
 }
 
-TEST(KickerTimeline, APulseForAStrangersOrderALateOneAndASecondOneAreTold) {
-  EXPECT_THAT(judge_pulses(timeline_of_a_kick(OrderKind::kStrangers)).complaints,
+TEST(KickerTimeline, APulseForAnUnauthorisedOrderALateOneAndASecondOneAreTold) {
+  EXPECT_THAT(judge_pulses(timeline_of_a_kick(OrderKind::kUnauthorised)).complaints,
               ElementsAre(HasSubstr("without a lawful")));
   KickerTimeline late = timeline_of_a_kick();
   late.pulses[0].t_ns = 1200 * kMsOfTest_ns;

@@ -56,7 +56,7 @@ fs::path signed_by_its_own_key(const fs::path& folder, security::Bus bus, const 
 
 class Papers : public Attackers {
  protected:
-  /// The team's bus on the stranger's machine, with what machine N has there.
+  /// The team's bus on the attacker's machine, with what machine N has there.
   bus::DomainConfig on_team(const fs::path& papers) const {
     return bus::secured(bus::from_file(config::TeamDomains{}.team, folder / "machine_1" / "team_bus.xml"), papers,
                         "team_bus");
@@ -127,11 +127,11 @@ TEST_F(Papers, ARobotThatSaysARefereeFromAnotherMachineIsHeardByNobodyAndTheBase
   ASSERT_NO_FATAL_FAILURE(start_team());
   const fs::path forged = signed_by_its_own_key(keys.robot(3) / "team", security::Bus::kTeam, "team_bus", 3,
                                                 {"referee", "team_state"}, folder / "signed_by_its_own_key");
-  on_host(team->stranger(), [&] {
+  on_host(team->attacker(), [&] {
     const bus::Participant signed_itself{on_team(forged)};
     EXPECT_EQ(say_referee(signed_itself, kForgedWord), 0u);
   });
-  on_host(team->stranger(), [&] {
+  on_host(team->attacker(), [&] {
     const bus::Participant without_right{lenient(on_team(keys.robot(3) / "team"))};
     say_state(without_right, 3);
     EXPECT_TRUE(team->wait_for(kAirTimeout, [&] { return rows("clock_offsets WHERE other_robot_id = 3") > 0; }))
@@ -139,7 +139,7 @@ TEST_F(Papers, ARobotThatSaysARefereeFromAnotherMachineIsHeardByNobodyAndTheBase
     say_referee(without_right, kForgedWord);
   });
   EXPECT_EQ(words(kForgedWord), 0);
-  on_host(team->stranger(), [&] {
+  on_host(team->attacker(), [&] {
     const bus::Participant base{lenient(on_team(keys.robot(0) / "team"))};
     EXPECT_EQ(say_referee(base, kForgedWord + 1), 2u) << "with the base's papers both robots listen";
   });
@@ -177,9 +177,9 @@ TEST_F(Papers, ACameraThatOrdersOnTheRobotsLoopbackIsHeardByNobodyAndItsDecision
 
 /// Whether robot 1 heard that somebody else says he is robot 1, once states in clear were sent in every mate's name.
 bool hears_its_twin_in_clear(TeamOnAir& team) {
-  const Packets forged = forged_states(team.stranger(), 1, speakers(team.hub().overheard()));
+  const Packets forged = forged_states(team.attacker(), 1, speakers(team.hub().overheard()));
   EXPECT_FALSE(forged.empty());
-  send_to_domain(team.stranger(), "10.77.0.1", config::TeamDomains{}.team, forged);
+  send_to_domain(team.attacker(), "10.77.0.1", config::TeamDomains{}.team, forged);
   team.pass(seconds{1});
   return team.said(1, "team_link").find("somebody else says") != std::string::npos;
 }

@@ -46,14 +46,14 @@ struct Target {
   std::optional<std::size_t> other;
 };
 
-/// In half of the faults that leave the way to an order alone; a stranger in every other one of them.
+/// In half of the faults that leave the way to an order alone; an unauthorised one in every other one of them.
 Insists insists(const Fault& fault, Random& random, Insists before) {
   const bool drawn = random() % 2 == 0;
   for (const std::string_view name : {"odometry", "world_state", "kick_decision"}) {
     if (fault.node == node_index(name) || fault.other == node_index(name)) return Insists::kNobody;
   }
   if (!drawn) return Insists::kNobody;
-  return before == Insists::kStranger ? Insists::kInItsName : Insists::kStranger;
+  return before == Insists::kUnauthorised ? Insists::kInItsName : Insists::kUnauthorised;
 }
 
 std::vector<Target> targets_of(FaultKind kind, bool with_links) {
@@ -154,7 +154,7 @@ std::string text(const Fault& fault) {
     out += fmt::format(", {:.0f} to {:.0f} ms", ms(fault.way.delay), ms(fault.way.delay + fault.way.jitter));
   if (fault.kind == FaultKind::kGarble) out += fmt::format(", {:.0f} % of the frames", 100.0 * fault.way.garble);
   if (fault.insists == Insists::kInItsName) out += ", insisting";
-  if (fault.insists == Insists::kStranger) out += ", a stranger insisting";
+  if (fault.insists == Insists::kUnauthorised) out += ", an unauthorised client insisting";
   return out;
 }
 
@@ -167,7 +167,7 @@ std::vector<Fault> draw_faults(std::size_t count, std::uint64_t seed, bool with_
     targets.emplace_back(targets_of(static_cast<FaultKind>(kind), with_links));
   Deck<FaultKind> deck{kinds};
   std::vector<Fault> faults;
-  Insists last = Insists::kStranger;  // who insisted last
+  Insists last = Insists::kUnauthorised;  // who insisted last
   while (faults.size() < count) {
     Fault fault;
     fault.kind = deck.draw(random);
@@ -189,7 +189,7 @@ std::vector<Fault> draw_faults(std::size_t count, std::uint64_t seed, bool with_
 std::vector<Fault> draw_stalls(std::size_t rounds, std::uint64_t seed) {
   Random random{seed};
   std::vector<Fault> faults;
-  Insists last = Insists::kStranger;  // who insisted last
+  Insists last = Insists::kUnauthorised;  // who insisted last
   for (std::size_t round = 0; round < rounds; ++round) {
     for (std::size_t node = 0; node < kNodes.size(); ++node) {
       if (node == node_index("referee")) continue;

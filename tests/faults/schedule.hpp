@@ -38,7 +38,7 @@ const char* name(FaultKind kind);
 bool on_link(FaultKind kind);
 
 /// Who orders beside kick_decision, all the while and with more strength.
-enum class Insists { kNobody, kInItsName, kStranger };
+enum class Insists { kNobody, kInItsName, kUnauthorised };
 
 /// One thing that goes wrong.
 struct Fault {
@@ -47,7 +47,7 @@ struct Fault {
   std::optional<std::size_t> other;  ///< of a link: its other end; none: everything that the node says and hears
   double waits_s = 0.0;              ///< from the whole chain to the fault, so that it comes anywhere in a kick
   double lasts_s = 0.0;
-  Insists insists = Insists::kNobody;  ///< what fault_client does from before the fault on; a stranger to its end
+  Insists insists = Insists::kNobody;  ///< what fault_client does from before the fault on; unauthorised to its end
   Way way;                             ///< what a link does meanwhile
 };
 

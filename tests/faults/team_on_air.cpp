@@ -93,8 +93,8 @@ TeamOnAir::TeamOnAir(const TeamPlan& plan) : plan_(plan), team_(team_of(plan)) {
   std::vector<Hub::Cable> cables;
   for (std::size_t machine = 0; machine <= plan_.robots.size(); ++machine)
     cables.push_back({hosts_.emplace_back(number_of(machine)).cable(), number_of(machine)});
-  constexpr std::uint8_t kStranger = 200;
-  cables.push_back({hosts_.emplace_back(kStranger).cable(), kStranger});
+  constexpr std::uint8_t kAttacker = 200;
+  cables.push_back({hosts_.emplace_back(kAttacker).cable(), kAttacker});
   hub_ = std::make_unique<Hub>(std::move(cables), plan_.seed);
   for (std::size_t machine = 0; machine <= plan_.robots.size(); ++machine) configure(machine);
 }

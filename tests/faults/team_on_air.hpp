@@ -76,7 +76,7 @@ class TeamOnAir {
   /// The tag of a robot's own bus, whose domain is team.domain's 42.
   std::string tag(std::size_t machine) const;
   /// The cable of a host that is no machine of the team, on the same hub.
-  const NetworkHost& stranger() const { return hosts_.back(); }
+  const NetworkHost& attacker() const { return hosts_.back(); }
 
   /// Whether `condition` came to hold, asked ten times a second, within `patience`.
   bool wait_for(std::chrono::seconds patience, const std::function<bool()>& condition);
@@ -91,7 +91,7 @@ class TeamOnAir {
 
   TeamPlan plan_;
   config::Team team_;
-  std::vector<NetworkHost> hosts_;  // base, robots, stranger
+  std::vector<NetworkHost> hosts_;  // base, robots, attacker
   std::unique_ptr<Hub> hub_;
   std::map<std::pair<std::size_t, std::string>, std::unique_ptr<NodeProcess>> processes_;
   std::map<std::pair<std::size_t, std::string>, std::vector<std::string>> arguments_;

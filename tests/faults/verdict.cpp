@@ -26,7 +26,7 @@ std::size_t count_of(const std::vector<Finding>& findings, std::initializer_list
 
 std::size_t without_order(const Verdict& verdict) {
   return count_of(verdict.findings,
-                  {Offence::kNoOrder, Offence::kStranger, Offence::kStale, Offence::kTwice, Offence::kCarriedLate});
+                  {Offence::kNoOrder, Offence::kUnauthorised, Offence::kStale, Offence::kTwice, Offence::kCarriedLate});
 }
 std::size_t while_stopped(const Verdict& verdict) {
   return count_of(verdict.findings, {Offence::kStopped, Offence::kSilent});

@@ -54,10 +54,10 @@ TEST_F(ReKickKickerTest, ChargesUpAndShowsWhatAKickTook) {
   EXPECT_TRUE(tests::read_until(*kicker, [](const KickerSample& sample) { return sample.charge > 0.25; }));
 }
 
-TEST_F(ReKickKickerTest, LostAnswersAndStrangersCostNoKickAndAddNone) {
+TEST_F(ReKickKickerTest, LostAnswersAndForeignFramesCostNoKickAndAddNone) {
   emulator_.with_board([](EmulatedBoard& board) {
     board.faults.lost_every = 2;
-    board.faults.strangers_every = 3;
+    board.faults.foreign_every = 3;
   });
   const auto kicker = open();
   ASSERT_TRUE(until_armed(*kicker)) << kicker->status();

@@ -114,7 +114,7 @@ TEST_F(Board, ShowsOneRobotOfATeam) {
   EXPECT_THAT(picture.topics[1].writers, SizeIs(1)) << "refbox writes for all";
 }
 
-TEST_F(Board, DoesNotGrowWithStrangersNumbersAndTopics) {
+TEST_F(Board, DoesNotGrowWithUnknownNumbersAndTopics) {
   BusSnapshot full = board();
   for (int robot = 0; robot < 256; ++robot)
     full.hear("referee", static_cast<std::uint8_t>(robot), {1, 1, 0, 0, kSecond, kSecond});

@@ -88,11 +88,11 @@ TEST(FloodWatch, GivesBackWhatAFloodLeftInPieces) {
   bus::Stop stop;
   const FloodWatch watch{kNoLimit_mb, stop, tell, kPollInterval, kGrace};
   const std::int64_t before = resident_bytes();
-  std::vector<std::vector<char>> strangers;
-  for (int i = 0; i < 100'000; ++i) strangers.emplace_back(1000, 'x');
+  std::vector<std::vector<char>> blocks;
+  for (int i = 0; i < 100'000; ++i) blocks.emplace_back(1000, 'x');
   EXPECT_GT(resident_bytes(), before + 90 * kMb);
-  for (std::size_t i = 0; i + 1 < strangers.size(); ++i)
-    std::vector<char>().swap(strangers[i]);  // the last keeps all below it
+  for (std::size_t i = 0; i + 1 < blocks.size(); ++i)
+    std::vector<char>().swap(blocks[i]);  // the last keeps all below it
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{30};
   while (resident_bytes() > before + 40 * kMb && !stop.wait_until(std::chrono::steady_clock::now() + kPollInterval))
     ASSERT_LT(std::chrono::steady_clock::now(), end) << (resident_bytes() - before) / kMb << " MB stayed";

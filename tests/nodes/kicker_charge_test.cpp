@@ -64,9 +64,9 @@ TEST_F(KickerCharge, IsToldWithEachSampleAndToEmptyWhenTheProgramEnds) {
 
 TEST_F(KickerCharge, IsEmptiedWhenTheDecisionNodeHasGone) {
   decides = false;
-  Says<msg::DriveCommand> stranger{participant, 1, "somebody"};
+  Says<msg::DriveCommand> other{participant, 1, "somebody"};
   start();
-  stranger.expect_reader();
+  other.expect_reader();
   const auto drives = [](Says<msg::DriveCommand>& who, msg::KickerState wanted) {
     return [&who, wanted](const msg::KickerStatus& said) {
       who({});
@@ -74,7 +74,7 @@ TEST_F(KickerCharge, IsEmptiedWhenTheDecisionNodeHasGone) {
     };
   };
   ASSERT_TRUE(goes_on_until(drives(decision, msg::STATE_READY), 1.0, 300.0));
-  EXPECT_TRUE(goes_on_until(drives(stranger, msg::STATE_OFF), 1.0, 300.0)) << "somebody else is no comfort";
+  EXPECT_TRUE(goes_on_until(drives(other, msg::STATE_OFF), 1.0, 300.0)) << "somebody else is no comfort";
   EXPECT_EQ(kicker->told, ChargeCommand::kDischarge);
   EXPECT_TRUE(log_lines->wait_for("the decision node is gone"));
   EXPECT_TRUE(goes_on_until(drives(decision, msg::STATE_READY), 1.0, 300.0)) << "it is back";

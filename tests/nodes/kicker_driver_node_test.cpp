@@ -368,14 +368,14 @@ TEST_F(KickerDriverNodeTest, AnotherRobotsOrdersAreNotItsOwn) {
   EXPECT_EQ(kicker->commanded(), 1u);
 }
 
-TEST_F(KickerDriverNodeTest, ASecondDecisionNodeIsAStrangerToARobotThatHasOne) {
+TEST_F(KickerDriverNodeTest, ASecondDecisionNodeIsUnauthorisedOnARobotThatHasOne) {
   Says<msg::KickOrder> second{participant, 1, "kick_decision_second/1"};
   start();
   second.expect_reader();
   play();
   sample();
   second(wish(1));
-  EXPECT_EQ(receipt.nth(1).refusal, msg::REFUSAL_STRANGER);
+  EXPECT_EQ(receipt.nth(1).refusal, msg::REFUSAL_UNAUTHORISED);
   EXPECT_EQ(kicker->commanded(), 0u);
 }
 

@@ -83,9 +83,9 @@ TEST(OrderGate, RefusesInTheOrderOfTheTableInTheDocuments) {
   c.order = order_at(kNow_ns - 5'000 * kMs, 0);
   c.order.possession = false;
   c.order.power = 500.0;
-  auto by = OrderBy::kStranger;
+  auto by = OrderBy::kUnauthorised;
   const std::vector<std::pair<msg::Refusal, std::pair<std::string, std::function<void()>>>> steps{
-      {msg::REFUSAL_STRANGER, {"stranger", [&] { by = OrderBy::kOwnDecision; }}},
+      {msg::REFUSAL_UNAUTHORISED, {"unauthorised", [&] { by = OrderBy::kOwnDecision; }}},
       {msg::REFUSAL_FAULT,
        {"fault",
         [&] {
@@ -166,10 +166,10 @@ TEST(OrderGate, RefusesAnOrderThatWasGivenWithoutTheBall) {
       << "a refused order keeps nobody's id";
 }
 
-TEST(OrderGate, RefusesAStrangersOrderWhateverItSays) {
+TEST(OrderGate, RefusesAnUnauthorisedOrderWhateverItSays) {
   Case c;
   OrderGate gate = c.gate();
-  EXPECT_EQ(gate.judge(c.order, kNow_ns, OrderBy::kStranger), msg::REFUSAL_STRANGER);
+  EXPECT_EQ(gate.judge(c.order, kNow_ns, OrderBy::kUnauthorised), msg::REFUSAL_UNAUTHORISED);
   EXPECT_EQ(gate.handled(), 1u);
   EXPECT_EQ(gate.refused(), 1u);
   EXPECT_EQ(gate.last_kick_id(), 0) << "the decision node hears of its own alone";
@@ -178,7 +178,8 @@ TEST(OrderGate, RefusesAStrangersOrderWhateverItSays) {
   EXPECT_EQ(gate.judge(order_at(kNow_ns, 2), kNow_ns, OrderBy::kOwnDecision), msg::REFUSAL_NONE)
       << "the robot's own goes on";
   c.sample.fault = hal::KickerFault::kCoil;
-  EXPECT_EQ(c.gate().judge(c.order, kNow_ns, OrderBy::kStranger), msg::REFUSAL_STRANGER) << "nobody else is told why";
+  EXPECT_EQ(c.gate().judge(c.order, kNow_ns, OrderBy::kUnauthorised), msg::REFUSAL_UNAUTHORISED)
+      << "nobody else is told why";
 }
 
 TEST(OrderGate, RefusesAStaleOrder) {

@@ -78,7 +78,7 @@ TEST_F(Keys, ARenewedNodeHasAnotherKeyAndTheSameName) {
   EXPECT_THAT(faults(kNow + 240h), IsEmpty());
 }
 
-TEST_F(Keys, ARevokedNodeIsAStrangerToItsRobotAndNoOtherRobotChanges) {
+TEST_F(Keys, ARevokedNodeIsUnknownToItsRobotAndNoOtherRobotChanges) {
   const Certificate lost = read_certificate(team.robot(1) / "kick_decision.pem");
   const std::string other = read_text(team.robot(2) / "kick_decision.pem");
   team.keys().revoke(1, "kick_decision", kWeek);
@@ -108,7 +108,7 @@ TEST_F(Keys, AllHaveOneAuthorityOnTheTeamsBusWhichIsOfNoUseOnARobotsOwn) {
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("team_bus.p7s: cannot be read")));
 }
 
-TEST_F(Keys, ANodeOfAnotherRobotIsAStranger) {
+TEST_F(Keys, ANodeOfAnotherRobotIsUnknown) {
   EXPECT_FALSE(is_signed_by(read_certificate(team.robot(2) / "kick_decision.pem"),
                             read_certificate(team.robot(1) / "identity_ca.pem")));
   for (const char* ending : {".pem", ".key", ".p7s"})

@@ -1,4 +1,4 @@
-// Two members of a secured domain and strangers beside them, over the loopback's sockets.
+// Two members of a secured domain and others beside them, over the loopback's sockets.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <linux/if_ether.h>
@@ -90,9 +90,9 @@ TEST_F(SecuredBus, TheRobotsOwnDecisionIsHeardAndNobodyWithoutACertificate) {
 }
 
 TEST_F(SecuredBus, ADecisionWithTheCertificateOfAnotherAuthorityIsNotHeard) {
-  const TeamKeys strangers;
-  strangers.keys().issue(1, {"kick_decision"}, week());
-  EXPECT_THAT(heard_beside(as("kick_decision", strangers)), ElementsAre(1));
+  const TeamKeys others;
+  others.keys().issue(1, {"kick_decision"}, week());
+  EXPECT_THAT(heard_beside(as("kick_decision", others)), ElementsAre(1));
 }
 
 TEST_F(SecuredBus, TheDecisionOfAnotherRobotIsNotHeard) {
@@ -175,12 +175,12 @@ TEST_F(SecuredTeamBus, TheBaseIsHeardAndNobodyWithoutACertificate) {
 }
 
 TEST_F(SecuredTeamBus, TheBaseOfAnotherTeamIsNotHeard) {
-  const TeamKeys strangers;
-  strangers.keys().issue(0, {"team_link"}, week());
-  EXPECT_THAT(heard_beside(on_team(strangers, 0)), ElementsAre(1));
+  const TeamKeys others;
+  others.keys().issue(0, {"team_link"}, week());
+  EXPECT_THAT(heard_beside(on_team(others, 0)), ElementsAre(1));
 }
 
-TEST_F(SecuredTeamBus, ARobotsOwnRefboxIsAStrangerThere) {
+TEST_F(SecuredTeamBus, ARobotsOwnRefboxIsUnknownThere) {
   EXPECT_THAT(heard_beside(as("refbox", team)), ElementsAre(1));
 }
 
