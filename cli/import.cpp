@@ -53,7 +53,7 @@ std::vector<std::string> sentences_of(const imports::RefereeLog& referee, const 
       "imported from the referee box's {}: {} commands, no kick decision in it", referee.file, referee.lines.size())};
   if (team != nullptr) {
     sentences.push_back(
-        fmt::format("world states as {} ({}) told the box in {}, by game time; what it is not told is "
+        fmt::format("world states as {} ({}) sent to the box in {}, by game time; what it does not receive is "
                     "none, standard deviations stand as 0",
                     team->log.team, side_name(team->side), team->log.file));
   }
@@ -69,7 +69,7 @@ std::string write_log(const imports::BoxLogs& logs, const RefboxArguments& argum
   const ImportedRows rows =
       write_match_log(referee, ours, team, sentences_of(referee, team, logs.faults()), arguments.out);
   std::string text =
-      fmt::format("{}: {} words of the referee, {} world states", arguments.out, rows.referee, rows.world_states);
+      fmt::format("{}: {} commands of the referee, {} world states", arguments.out, rows.referee, rows.world_states);
   if (team != nullptr) text += fmt::format(" of the {} team", arguments.team);
   if (rows.without_velocity > 0) text += fmt::format("; {} without a velocity left out", rows.without_velocity);
   if (logs.teams.size() > (team != nullptr ? 1U : 0U)) text += "; --team takes the other team's";

@@ -62,7 +62,7 @@ void refuse_oracle(const config::KickDecision& decision) {
     const auto who = std::ranges::find_if(policies, [](auto policy) { return facts(policy).needs_truth(); });
     if (who == policies.end()) continue;
     throw UsageError{
-        fmt::format("the policy {} is told the simulator's true state, which is not on the bus: play it with "
+        fmt::format("the policy {} needs the simulator's true state, which is not on the bus: play it with "
                     "trivela simulate",
                     kicking::name(*who))};
   }

@@ -273,7 +273,8 @@ int replay(const ReplayFlags& flags) {
 void add_replay(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("replay", "Decide a recorded match again, with other settings or another robot file");
   verb->footer(
-      "The recorded wheel samples, camera frames, words of the referee and states of the kicker go at their recorded\n"
+      "The recorded wheel samples, camera frames, commands of the referee and states of the kicker go at their "
+      "recorded\n"
       "instants through the robot's logic, in this process: open loop, since nothing that it orders happens. It says\n"
       "first how far the log's own settings give the recorded decisions again, then what it orders beside what was\n"
       "ordered. `trivela report LOG OUT --html PAGE` shows both.");

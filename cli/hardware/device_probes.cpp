@@ -188,7 +188,7 @@ class RefereeBoxProbe final : public DeviceProbe {
       std::visit([this](const auto& what) { take(what); }, *event);
     }
   }
-  std::string values() override { return word_.empty() ? "it has said nothing" : "last word " + word_; }
+  std::string values() override { return word_.empty() ? "no command yet" : "last command " + word_; }
 
  private:
   void take(const hal::refbox::Connected&) { why_.clear(); }

@@ -110,7 +110,7 @@ int spin_wheel(const Spin& spin, hal::Wheels& wheels, const config::WheelBase& b
     pollfd inbox{signals.file_descriptor(), POLLIN, 0};
     ::poll(&inbox, 1, static_cast<int>(kCommandPeriod.count()));
     if (signals.stop_requested()) {
-      warn("stopped: the wheels are told to stand");
+      warn("stopped: the wheels get the command to stand");
       return kFailed;
     }
     for (auto sample = wheels.read(std::chrono::nanoseconds{0}); sample;

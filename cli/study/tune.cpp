@@ -200,7 +200,7 @@ void add_study_tune(CLI::App& study, int& exit_code) {
       ->check(CLI::Range(1, 20))
       ->capture_default_str();
   verb->add_option("--held-out-seed", flags->held_out_seed,
-                   "Matches and calibrations for the last word; default the next")
+                   "Matches and calibrations of the final check; default the next")
       ->check(seeds());
   add_play_options(*verb, flags->study);
   add_arm_options(*verb, flags->base);

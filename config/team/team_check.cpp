@@ -120,7 +120,7 @@ class TeamCheck {
 
   void check_base() {
     if (team_.base.lines.empty()) {
-      found_.push_back(fmt::format("{}: no [base]: who has the referee box's word?", team_.file));
+      found_.push_back(fmt::format("{}: no [base]: which machine runs refbox?", team_.file));
       return;
     }
     check_address(team_.base.lines, "address", "base.address", team_.base.address);

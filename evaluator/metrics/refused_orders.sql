@@ -1,4 +1,4 @@
--- Orders that the kicker's driver refused, by policy and reason. not_known: it was killed while it told the device, the
+-- Orders that the kicker's driver refused, by policy and reason. not_known: it was killed while it wrote to the device, the
 -- kick counts as one.
 -- Columns: policy, refusal, orders, not_fired (of them, accepted at first: a later receipt says that the coil was not energised).
 SELECT k.policy, k.refusal, count(*) AS orders, CAST(total(EXISTS (

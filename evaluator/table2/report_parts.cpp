@@ -221,8 +221,9 @@ ReportPart quality_part(const Report& report) {
 
 std::string line_of(const RefusedOrders& refused) {
   if (refused.refusal == "not_known")
-    return fmt::format("kicks that may not have been fired: {} ({}): the driver was killed while it told the device",
-                       refused.orders, refused.policy);
+    return fmt::format(
+        "kicks that may not have been fired: {} ({}): the driver was killed while it wrote to the device",
+        refused.orders, refused.policy);
   std::string line =
       fmt::format("refused orders, no kicks: {} x {} ({})", refused.orders, words(refused.refusal), refused.policy);
   if (refused.not_fired > 0) line += fmt::format("; accepted at first and not fired: {}", refused.not_fired);

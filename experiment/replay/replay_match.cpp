@@ -22,8 +22,8 @@ void refuse_oracle(const config::KickDecision& settings, int robot_id) {
   const robot::PolicyAssignment assignment{settings, static_cast<std::uint8_t>(robot_id)};
   for (const kicking::PolicyName policy : assignment.candidates()) {
     if (!facts(policy).needs_truth()) continue;
-    throw std::runtime_error{fmt::format(
-        "the policy {} is told the simulator's true state, which no recorded stream has", kicking::name(policy))};
+    throw std::runtime_error{fmt::format("the policy {} needs the simulator's true state, which no recorded stream has",
+                                         kicking::name(policy))};
   }
 }
 

@@ -152,7 +152,7 @@ can::Frame Drive::command(double motor_rpm, std::int64_t now_ns) {
 }
 
 std::string Drive::fault() const {
-  return fmt::format("fault: {}{}", emergency_ != 0 ? emergency_words(emergency_) : "no emergency was heard",
+  return fmt::format("fault: {}{}", emergency_ != 0 ? emergency_words(emergency_) : "no emergency was received",
                      may_reset_ ? "" : "; start this program again to reset it");
 }
 

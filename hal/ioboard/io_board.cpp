@@ -154,7 +154,7 @@ std::optional<std::uint8_t> IoBoard::height() const {
 
 void IoBoard::take_height(const Frame& answer, std::int64_t now_ns) {
   if (answer.payload[0] != height())
-    return lose(fmt::format("{}: the lever was told {} and answered {}", line_->name(), *height(), answer.payload[0]),
+    return lose(fmt::format("{}: the lever was set to {} and answered {}", line_->name(), *height(), answer.payload[0]),
                 now_ns);
   lever_stands_ns_ = now_ns + kicking::nanoseconds(settings_.lever_s);
   if (phase_ == Phase::kHeight) come_up(now_ns);

@@ -116,7 +116,8 @@ Finding domain_finding(const Readings& readings) {
   const std::string check = "domain";
   if (!readings.members && readings.join_error.empty())
     return {check, Verdict::kWarn,
-            fmt::format("{}: not joined, since a node that cannot hear itself cannot leave", readings.domain_id),
+            fmt::format("{}: not joined, since a node that does not receive its own messages cannot leave",
+                        readings.domain_id),
             "let its own datagrams in first"};
   if (!readings.members)
     return {check, Verdict::kBad, fmt::format("{} cannot be joined: {}", readings.domain_id, readings.join_error),
@@ -145,9 +146,10 @@ Finding own_bus_finding(const Readings& readings) {
   if (!readings.loopback_alone)
     return {check, Verdict::kOk, fmt::format("domain {} is not confined to the loopback", readings.domain_id), ""};
   if (!readings.open_ports)
-    return {check, Verdict::kOk, "the kernel does not say which sockets hear other interfaces", ""};
+    return {check, Verdict::kOk, "the kernel does not say which sockets receive from other interfaces", ""};
   if (readings.open_ports->empty())
-    return {check, Verdict::kOk, fmt::format("no socket of domain {} hears another interface", readings.domain_id), ""};
+    return {check, Verdict::kOk,
+            fmt::format("no socket of domain {} receives from another interface", readings.domain_id), ""};
   return {check, Verdict::kWarn,
           fmt::format("reached from other machines: UDP {}", fmt::join(*readings.open_ports, ", ")),
           fmt::format("a program that is not Trivela's has them open; load config/network/trivela.nft with own = {}-{}",

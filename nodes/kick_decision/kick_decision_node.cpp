@@ -30,7 +30,7 @@ void refuse_oracle(const robot::PolicyAssignment& assignment) {
   for (const kicking::PolicyName policy : assignment.candidates()) {
     if (!facts(policy).needs_truth()) continue;
     throw std::runtime_error{
-        fmt::format("the policy {} is told the simulator's true state, which is not on the bus: "
+        fmt::format("the policy {} needs the simulator's true state, which is not on the bus: "
                     "play it with trivela simulate",
                     kicking::name(policy))};
   }
@@ -122,7 +122,7 @@ bool KickDecisionNode::in_charge() {
   const bool waits = !first_node_.in_charge(context_.steady_ns());
   if (waits != std::exchange(waits_, waits)) {
     context_.logger->warn(waits ? "the first decision node is back and decides"
-                                : "no first decision node is heard: this one decides");
+                                : "no first decision node is received: this one decides");
   }
   return !waits;
 }

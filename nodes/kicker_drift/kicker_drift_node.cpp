@@ -75,7 +75,7 @@ void KickerDriftNode::judge() {
   if (says_the_same(message, said_)) return;
   say(message);
   if (story.drifts.empty()) {
-    context_.logger->info("the kicker has not changed: a later word on its kicks takes that back");
+    context_.logger->info("the kicker has not changed: a later outcome of its kicks takes that back");
   } else {
     context_.logger->warn("the kicker changed at kick {}: {}; {}", message.changed_kick_id,
                           evaluator::words_of(story.drifts.back()), evaluator::correction_of(story.drifts.back()));

@@ -77,7 +77,7 @@ void KickerDriverNode::begin_in_real_time() {
   desk_.began(context_.steady_ns());
   pending_.emplace(PendingKick::name_of(context_.settings.domain, context_.robot_id()));
   if (!pending_->why().empty())
-    context_.logger->warn("a kick that is lost with this program will not be told: {}", pending_->why());
+    context_.logger->warn("a kick that is lost with this program will not be reported: {}", pending_->why());
   kicker_->hold_when([this](std::int64_t judged_ns) { return holds(judged_ns); });
   kicker_->call_when_written([this] { pending_->settled(); });
   node_.on_stop([this] {
@@ -122,7 +122,7 @@ KickerDriverNode::~KickerDriverNode() {
     kicker_->charge(desk_.end());
     kicker_->make_safe();  // from here on it does not ask this node any more
   } catch (const std::exception& error) {
-    context_.logger->error("the board cannot be told to empty: {}", error.what());
+    context_.logger->error("the board does not take the command to empty: {}", error.what());
   }
 }
 
@@ -255,7 +255,7 @@ void KickerDriverNode::complete_predecessor() {
   const PendingKick::Left& left = *pending_->left();
   context_.logger->warn(
       "kick {} was accepted by a driver that ended {}", left.receipt.kick_id,
-      left.being_told ? "while it told the device: whether it fired is not known" : "before it fired");
+      left.being_told ? "while it wrote to the device: whether it fired is not known" : "before it fired");
   receipt_out_.write(left.being_told ? desk_.not_known(left.receipt, now_t_ns())
                                      : desk_.not_fired(left.receipt, now_t_ns()));
   pending_->forget();
@@ -300,7 +300,7 @@ bool KickerDriverNode::by_own_decision(const bus::SampleInfo& info) {
   const bool another =
       !context_.settings.run.lockstep && drives != drives_.end() && drives->second.last() != info.member;
   if (std::exchange(other_orders_, another) != another && another)
-    context_.logger->warn("another program than that whose drive is heard writes kick_order as {}", info.owner);
+    context_.logger->warn("another program than the one that drives writes kick_order as {}", info.owner);
   return true;
 }
 

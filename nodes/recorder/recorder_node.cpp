@@ -72,10 +72,11 @@ void RecorderNode::note_fires(const std::vector<msg::DeviceFire>& fires) {
   if (fires.empty()) return;
   const msg::DeviceFire& fire = fires.front();
   std::string text = fmt::format(
-      "robot {}: a program told the coil (device/fire) to kick {} with power {:g} at t {:.3f} s, and no kicker_driver "
+      "robot {}: a program ordered the coil (device/fire) to kick {} with power {:g} at t {:.3f} s, and no "
+      "kicker_driver "
       "answers for it: on a bus without keys any program can say that (trivela keys)",
       fire.robot_id, fire.kick_id, fire.power, kicking::seconds(fire.t_ns));
-  if (fires.size() > 1) text += fmt::format("; {} more kicks were told in this way", fires.size() - 1);
+  if (fires.size() > 1) text += fmt::format("; {} more kicks were ordered in this way", fires.size() - 1);
   context_.logger->error(text);
   try {
     log::Additions{state_->log}.add(

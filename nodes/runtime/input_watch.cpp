@@ -65,7 +65,7 @@ void InputWatch::look_for_the_unheard(std::int64_t now_ns) {
   unheard_said_ = true;
   for (const Watched& input : inputs_)
     if (input.last_ns == 0)
-      context_.logger->warn("{} not heard yet, {} s after the start", input.name, kUnheard_ns / 1'000'000'000);
+      context_.logger->warn("{} not received yet, {} s after the start", input.name, kUnheard_ns / 1'000'000'000);
 }
 
 }  // namespace trivela::nodes

@@ -47,7 +47,7 @@ bus::Pulse NodeContext::pulse() const {
   if (!supervisor) return {};
   const auto beat = [this](const std::string& late) {
     if (late.empty()) return alive();
-    logger->error("{} does not come round: the service manager hears nothing of this node", late);
+    logger->error("{} does not come round: the service manager gets no sign of life", late);
   };
   // In lockstep a reaction may wait for the others' samples.
   const std::chrono::seconds timeout = settings.run.lockstep ? kLockstepTimeout : std::chrono::seconds{1};

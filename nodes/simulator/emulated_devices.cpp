@@ -29,7 +29,7 @@ const config::Settings& playable(const config::Settings& settings) {
     throw std::runtime_error{"simulator.devices = \"emulated\" with run.lockstep = true: a board waits for nobody"};
   if (settings.simulator.halves > std::uint32_t{box::RefereeOutput::kMostHalves}) {
     throw std::runtime_error{
-        fmt::format("simulator.halves = {}: a referee box has words for {}, and simulator.devices = \"emulated\"",
+        fmt::format("simulator.halves = {}: a referee box has commands for {}, and simulator.devices = \"emulated\"",
                     settings.simulator.halves, box::RefereeOutput::kMostHalves)};
   }
   return settings;

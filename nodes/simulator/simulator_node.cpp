@@ -75,7 +75,8 @@ SimulatorNode::SimulatorNode(NodeContext& context, EmulatedDevices* devices)
     kicker_.emplace(context.participant);
   }
   if (!context.settings.simulator.referee && context.settings.run.lockstep)
-    throw std::runtime_error{"simulator.referee = false: in lockstep nobody else says the referee's word of a cycle"};
+    throw std::runtime_error{
+        "simulator.referee = false: in lockstep nobody else writes the referee's command of a cycle"};
   if (devices_ == nullptr && context.settings.simulator.referee)
     referee_.emplace(context.participant, referee_of(context.robot_id()));
   refuse_twins();

@@ -160,7 +160,7 @@ void TeamMember::look_after(const std::string& address, bus::Stop& over) {
   const auto silent = Clock::now() - last_heard_.load();
   if (silent < kPollInterval) timeout_ = kShortestBackoff;
   if (silent < timeout_) return;
-  context_.logger->info("nobody is heard on the team's bus for {} s: joins it again",
+  context_.logger->info("nothing is received on the team's bus for {} s: joins it again",
                         std::chrono::duration_cast<std::chrono::seconds>(silent).count());
   timeout_ = std::min<Clock::duration>(2 * timeout_, kLongestBackoff);
   over.request();

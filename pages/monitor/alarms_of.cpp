@@ -27,11 +27,11 @@ void note_silences(const SceneState& state, Alarms& alarms) {
     for (const std::string& topic : state.streams.silent(id)) {
       alarms[fmt::format("{}/silent/{}", id, topic)] =
           topic == bus::meta<msg::Referee>::topic ? fmt::format("robot {}: the referee is silent", id)
-                                                  : fmt::format("robot {}: no {} is heard any more", id, topic);
+                                                  : fmt::format("robot {}: no {} is received any more", id, topic);
     }
   }
   if (!state.robots.empty() && !state.streams.was_heard(std::string{bus::meta<msg::Referee>::topic}))
-    alarms["referee"] = "no referee has been heard";
+    alarms["referee"] = "no referee has been received";
 }
 
 const char* words_of(msg::KickerFault fault) {

@@ -69,7 +69,7 @@ function showRobot(robot) {
   setText(part('why'), robot.why);
   const {kicker} = robot;
   setText(part('charge'), kicker ? `${words(kicker.state)}, charge ${percent(kicker.charge)}${kicker.modelled ? ' (computed)' : ''}`
-    : 'nothing is heard of its kicker');
+    : 'no kicker_status is received');
   const meter = card.querySelector('meter');
   meter.hidden = !kicker || kicker.charge === null;
   if (!meter.hidden) meter.value = kicker.charge;
@@ -92,7 +92,7 @@ function learnedText(learned) {
 
 function showGame() {
   const {referee} = match;
-  if (!referee) return setText($('game'), 'no referee heard yet');
+  if (!referee) return setText($('game'), 'no referee received yet');
   const clock = referee.clock_s === null ? '' :
     `, ${Math.floor(referee.clock_s / 60)}:${String(referee.clock_s % 60).padStart(2, '0')}`;
   const restart = referee.restart === 'none' ? '' : `, ${words(referee.restart)}${referee.ours ? ' for us' : ''}`;
@@ -142,7 +142,7 @@ function became(kick) {
 function showKicks() {
   replace($('kicks').tBodies[0], [match.kicks, match.names], () => match.kicks.map((kick) => {
     const line = element('tr', '', {class: kick.fate.replace(' ', '-')});
-    line.append(element('th', robotName(kick.robot), {scope: 'row'}), element('td', kick.policy === null ? 'not heard' : words(kick.policy)),
+    line.append(element('th', robotName(kick.robot), {scope: 'row'}), element('td', kick.policy === null ? 'not received' : words(kick.policy)),
       element('td', fixed(kick.distance, 1, ' m')), element('td', fixed(kick.power, 1) + (kick.kind ? `, kind ${kick.kind}` : '')), element('td', percent(kick.p)),
       element('td', became(kick), {class: 'became'}));
     return line;

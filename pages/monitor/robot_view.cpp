@@ -58,10 +58,10 @@ Why why_of(const RobotView& robot, std::int64_t now_ns) {
   if (recent_fire(robot, now_ns) != nullptr) return {true, words_of(msg::REASON_FIRE)};
   if (const auto* decision = robot.decision.within(kDecisionAge_ns, now_ns)) return {false, words_of(decision->reason)};
   const msg::WorldState* const world = robot.world.within(kFresh_ns, now_ns);
-  if (world == nullptr) return {false, "nothing is heard of what it believes"};
+  if (world == nullptr) return {false, "no world_state is received"};
   if (!world->playing) return {false, words_of(msg::REASON_NOT_PLAYING)};
   if (!world->possession) return {false, words_of(msg::REASON_NO_BALL)};
-  return {false, "it has the ball, and no decision is heard"};
+  return {false, "it has the ball, and no decision is received"};
 }
 
 }  // namespace trivela::pages

@@ -19,7 +19,7 @@ RunningTable running_table(const std::map<std::optional<PolicyLabel>, KickTally>
   RunningTable table;
   std::optional<RunningRow> nobodys;
   for (const auto& [policy, kicks] : tallies) {
-    RunningRow row{policy ? policy->name() : "not heard", kicks};
+    RunningRow row{policy ? policy->name() : "not received", kicks};
     row.interval = stats::confidence_sequence(row.counts());
     if (policy) {
       table.rows.push_back(row);

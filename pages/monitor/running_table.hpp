@@ -12,7 +12,7 @@ namespace trivela::pages {
 
 /// A row of Table 2 while the match goes on.
 struct RunningRow {
-  std::string policy;  ///< "not heard": of kicks whose decision was not
+  std::string policy;  ///< "not received": of kicks whose decision was not
   KickTally kicks;
   evaluator::stats::Interval interval{0.0, 1.0};  ///< 95 %, of the part inside; holds at every look at once
 

@@ -59,12 +59,12 @@ class RefereeWatch {
   std::optional<std::string> news(std::int64_t now_ns) {
     const bool contested = std::ranges::any_of(others_, [&](const Other& other) { return !is_old(other, now_ns); });
     if (std::exchange(contested_, contested) != contested)
-      return contested ? "several programs write referee for this robot: the stricter word counts; stop all but one"
+      return contested ? "several programs write referee for this robot: the stricter command counts; stop all but one"
                        : "one program writes referee again";
     const bool silent = says(now_ns) == RefereeSays::kSilent;
     if (silent == silent_) return std::nullopt;
     silent_ = silent;
-    if (!silent) return "the referee is heard again";
+    if (!silent) return "the referee is received again";
     return fmt::format("the referee is silent, its last command is of {:.2f} s ago: the game counts as stopped",
                        age_s(now_ns));
   }

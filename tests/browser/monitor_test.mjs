@@ -180,7 +180,7 @@ test('where nobody plays the page says so and claims nothing', async () => {
   await live(page);
   await page.waitForSelector('#nobody:not([hidden])', patience);
   assert.ok(!await page.isVisible('#simulated'), 'nobody has said that it is simulated');
-  assert.equal(await page.textContent('#game'), 'no referee heard yet');
+  assert.equal(await page.textContent('#game'), 'no referee received yet');
   assert.deepEqual(await findings(page), []);
   await photograph(page, 'monitor-nobody-390');
   assert.deepEqual(page.complaints, []);

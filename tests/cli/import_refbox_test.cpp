@@ -103,7 +103,7 @@ TEST_F(ImportRefbox, ARealMatchIsPrintedAsItWasMeasured) {
 TEST_F(ImportRefbox, MakesAMatchLogThatSaysWhereItIsFrom) {
   const VerbRun result = run("import refbox " + kMatchOf2018 + " --out " + path().string());
   EXPECT_EQ(result.exit_code, kDone);
-  EXPECT_THAT(result.out, HasSubstr("170 words of the referee, 0 world states"));
+  EXPECT_THAT(result.out, HasSubstr("170 commands of the referee, 0 world states"));
   EXPECT_THAT((rows<int, int>("SELECT count(*), sum(playing) FROM referee")), ElementsAre(std::tuple(170, 33)));
   const Reader reader(path());
   ASSERT_EQ(reader.sessions().size(), 1u);
@@ -126,7 +126,7 @@ TEST_F(ImportRefbox, RobotsAndBallOfAnArchiveStandInTheLogByGameTime) {
                                                           {"readme.txt", "hello"}}));
   const VerbRun result = run("import refbox " + zip + " --out " + path().string());
   EXPECT_EQ(result.exit_code, kDone) << result.out;
-  EXPECT_THAT(result.out, HasSubstr("4 words of the referee, 100 world states of the cyan team; --team takes"));
+  EXPECT_THAT(result.out, HasSubstr("4 commands of the referee, 100 world states of the cyan team; --team takes"));
   EXPECT_THAT((rows<int, int, std::int64_t, std::int64_t>("SELECT robot_id, count(*), min(t_ns), max(t_ns) FROM "
                                                           "world_states GROUP BY 1")),
               ElementsAre(std::tuple(3, 100, 0, 9'900'000'000)));

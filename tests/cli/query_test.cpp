@@ -84,7 +84,7 @@ TEST_F(QueryVerb, WhatATerminalCouldObeyIsWrittenOut) {
 TEST_F(QueryVerb, ListsEachMetricWithItsColumns) {
   EXPECT_THAT(said({"--list"}),
               HasSubstr("refused_orders\n    Orders that the kicker's driver refused, by policy and "
-                        "reason. not_known: it was killed while it told the device, the kick "
+                        "reason. not_known: it was killed while it wrote to the device, the kick "
                         "counts as one.\n    Columns: policy, refusal, orders, not_fired (of them, accepted "
                         "at first: a later receipt says that the coil was not energised).\n"));
 }

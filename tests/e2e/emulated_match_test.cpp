@@ -302,7 +302,7 @@ TEST(EmulatedMatchUsage, ABoxHasNoWordsForAFifthHalf) {
   for (int half = 0; half < 5; ++half) words.insert(words.end(), {"--half", "moving"});
   Program match{"trivela", words, folder.path()};
   EXPECT_EQ(match.wait(), 1);
-  EXPECT_THAT(match.errors(), HasSubstr("simulator.halves = 5: a referee box has words for 4"));
+  EXPECT_THAT(match.errors(), HasSubstr("simulator.halves = 5: a referee box has commands for 4"));
   EXPECT_THAT(match.errors(), HasSubstr("nothing was recorded"));
 }
 

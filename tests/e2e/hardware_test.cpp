@@ -174,7 +174,7 @@ TEST_F(Hardware, EverythingThatTheConfigurationOpensHasItsRowAndItsValue) {
                                 "referee box +tcp://127.0.0.1:[0-9]+ +there"})
     EXPECT_THAT(trivela->output(), testing::ContainsRegex(row));
   for (const std::string value : {"wheels: wheel 1 0.00, ", "gyro: 1.25 rad/s, [0-9]+ ms old", "kicker: charge ",
-                                  "range finder: 2.00 m in front; [0-9]+/s", "referee box: last word WELCOME"})
+                                  "range finder: 2.00 m in front; [0-9]+/s", "referee box: last command WELCOME"})
     EXPECT_THAT(trivela->output(), testing::ContainsRegex(value));
   drives.with_board([](const hal::cia402::EmulatedDrives& base) {
     for (const auto& drive : base.drives()) {

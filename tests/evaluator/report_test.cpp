@@ -320,7 +320,7 @@ TEST_F(ReportOfALog, AKickThatMayHaveBeenFiredCountsAndIsNamed) {
   EXPECT_EQ(report.refused_orders[0].not_fired, 0);
   EXPECT_EQ(row_of(report, "stopped").kicks(), 1);
   EXPECT_THAT(to_text(report), HasSubstr("kicks that may not have been fired: 1 (stopped): the driver was killed while "
-                                         "it told the device"));
+                                         "it wrote to the device"));
 }
 
 TEST_F(ReportOfALog, AnOrderSentTwiceIsOneAcceptedKick) {

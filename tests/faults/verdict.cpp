@@ -104,7 +104,7 @@ namespace {
 
 /// How often each node was hit, and how long it took to recover.
 std::string lines_by_node(const Verdict& verdict) {
-  std::string out = "Faults by node (a link counts at both ends) and seconds until whole: topics heard, next kick\n";
+  std::string out = "Faults by node (a link counts at both ends) and seconds until whole: topics back, next kick\n";
   out += fmt::format("  {:<14}", "node");
   for (const FaultKind kind : kKinds) out += fmt::format("{:>8}", name(kind));
   out += fmt::format("{:>9}{:>8}{:>8}{:>8}{:>8}\n", "not whole", "median", "worst", "median", "worst");
@@ -137,7 +137,7 @@ std::string counts_text(const Verdict& verdict) {
   out += fmt::format("  fires closer than the minimum interval      {:>6}\n", too_soon(verdict));
   out += fmt::format("  kicks neither in a log nor in a counted gap {:>6}\n", verdict.logged.lost.size());
   out += fmt::format("  faults that were not recovered from         {:>6}\n", unrecovered(verdict));
-  out += fmt::format("  topics heard later than 2 s after a fault   {:>6}\n", slow_trials(verdict, false));
+  out += fmt::format("  topics back later than 2 s after a fault   {:>6}\n", slow_trials(verdict, false));
   out += fmt::format("  ... later than 4 s after forged packets     {:>6}\n", slow_trials(verdict, true));
   return out;
 }
@@ -155,7 +155,7 @@ std::string findings_text(const Verdict& verdict) {
     out += fmt::format("  ... and {} more (--json has all)\n", verdict.findings.size() - told);
   for (const Trial& trial : verdict.trials)
     if (slow(trial))
-      out += fmt::format("  \"{}\": topics heard after {:.2f} s alone\n", text(trial.fault), trial.streams_s);
+      out += fmt::format("  \"{}\": topics back after {:.2f} s alone\n", text(trial.fault), trial.streams_s);
   for (const FireSeen& fire : verdict.logged.lost)
     out += fmt::format("  kick {} is in no log; {}\n", fire.kick_id, circumstances(verdict, fire.arrival_ns));
   for (const std::string& log : verdict.unreadable) out += fmt::format("  {}\n", log);

@@ -23,7 +23,7 @@ TEST(Verdict, AFaultThatCostsTheTopicsMoreThanTwoSecondsIsCounted) {
   verdict.trials.push_back(trial_of(FaultKind::kStop, 2.1));
   EXPECT_FALSE(verdict.clean());
   EXPECT_EQ(json(verdict)["streams_slower_than_2_s"], 1);
-  EXPECT_THAT(text(verdict), testing::HasSubstr("topics heard after 2.10 s alone"));
+  EXPECT_THAT(text(verdict), testing::HasSubstr("topics back after 2.10 s alone"));
 }
 
 TEST(Verdict, AfterForgedPacketsItMayTakeFourSeconds) {

@@ -246,7 +246,7 @@ TEST_F(Cia402HeartbeatLost, WhereTheDriveDoesNotSayItsErrorItsFaultStays) {
   bus_.run(5.0);
   EXPECT_FALSE(bus_.client->up());
   EXPECT_EQ(bus_.drive(1).resets(), 0u);
-  EXPECT_THAT(status(), HasSubstr("drive 1: fault: no emergency was heard; start this program again to reset it"));
+  EXPECT_THAT(status(), HasSubstr("drive 1: fault: no emergency was received; start this program again to reset it"));
 }
 
 TEST_F(Cia402DrivesTest, BusOffIsSaidInWordsAndTheBusOpenedAgain) {

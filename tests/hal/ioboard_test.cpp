@@ -201,7 +201,7 @@ TEST_F(IoBoardTest, ALeverThatAnswersAnotherHeightOrNoneIsALostLine) {
   step(0);
   answer(version(), 1);
   answer(encode(frame_of(Command::kHeight, 20)), 2);
-  EXPECT_EQ(board_->status(), "/dev/ttyTEST: the lever was told 120 and answered 20");
+  EXPECT_EQ(board_->status(), "/dev/ttyTEST: the lever was set to 120 and answered 20");
   step(202);
   answer(version(), 203);
   step(303);

@@ -77,8 +77,8 @@ TEST_F(InputWatchTest, WhatWasNeverHeardIsSaidOnceAfterSomeSeconds) {
   listener.on<msg::KickOutcome>([](const msg::KickOutcome&) {});
   InputWatch watch{context, listener};
   const Running running{Executor::kListener, stop, {&listener}};
-  EXPECT_TRUE(log_lines->wait_for("odometry not heard yet"));
-  EXPECT_EQ(log_lines->count("not heard yet"), 1u) << "events have no period";
+  EXPECT_TRUE(log_lines->wait_for("odometry not received yet"));
+  EXPECT_EQ(log_lines->count("not received yet"), 1u) << "events have no period";
 }
 
 TEST_F(InputWatchTest, InLockstepNothingIsWatched) {

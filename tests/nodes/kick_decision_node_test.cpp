@@ -437,7 +437,7 @@ TEST_F(SecondDecisionNodeTest, SaysNothingWhileTheFirstSpeaksAndOrdersWhereItFal
   EXPECT_EQ(order.nth(1).kick_id >> 48, 6) << "not the first one's session, 5";
   EXPECT_EQ(decision.nth(1).seq, 1u);
   EXPECT_EQ(drive.nth(51).t_ns, sixth_ns);
-  EXPECT_TRUE(log_lines->wait_for("no first decision node is heard: this one decides"));
+  EXPECT_TRUE(log_lines->wait_for("no first decision node is received: this one decides"));
 }
 
 TEST_F(SecondDecisionNodeTest, SpeaksOnForTwoSecondsAfterTheFirstIsBack) {

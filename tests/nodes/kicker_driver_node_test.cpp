@@ -331,7 +331,7 @@ TEST_F(KickerDriverNodeTest, ASilentRefereeDisarmsAndHisWordArmsAgain) {
   EXPECT_EQ(kicker->commanded(), 0u);
   play();
   EXPECT_TRUE(sample().armed);
-  EXPECT_TRUE(log_lines->wait_for("the referee is heard again"));
+  EXPECT_TRUE(log_lines->wait_for("the referee is received again"));
   EXPECT_TRUE(answer(wish(2)).accepted);
 }
 

@@ -346,7 +346,7 @@ TEST_F(RecorderNodeTest, AWordToACoilThatNoDriverAnswersForIsNoted) {
   while (log->flush(), count(log::Reader{folder / "match.db"}, "kick_receipts") == 0) std::this_thread::yield();
   coil(fire(1));
   coil(fire(2));
-  while (log_lines->count("told the coil (device/fire) to kick 2 with power 20") == 0) {
+  while (log_lines->count("ordered the coil (device/fire) to kick 2 with power 20") == 0) {
     now_ns += robot::FireWatch::kTimeout_ns;
     std::this_thread::yield();
   }

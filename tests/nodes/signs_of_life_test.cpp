@@ -27,7 +27,7 @@ TEST_F(SignsOfLife, ANodeIsReadyOnceItsReadersAreThereAndSpeaksOnlyWhileItsLoops
   for (int i = 0; i < 3; ++i) EXPECT_EQ(manager.next(kPlenty), "WATCHDOG=1");
 
   hang = true;
-  EXPECT_TRUE(log_lines->wait_for("node/clock does not come round: the service manager hears nothing of this node"));
+  EXPECT_TRUE(log_lines->wait_for("node/clock does not come round: the service manager gets no sign of life"));
   manager.drain();
   EXPECT_EQ(manager.next(std::chrono::milliseconds{300}), std::nullopt) << "longer than the watchdog waits";
   go.count_down();

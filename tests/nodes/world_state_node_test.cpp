@@ -191,7 +191,7 @@ TEST_F(WorldStateNodeTest, NobodyPlaysByTheWordOfARefereeWhoIsSilentOrGone) {
   word.t_ns = 5'000'000'000;
   referee_says(word);
   EXPECT_TRUE(playing_at(5'000'000'000));
-  EXPECT_TRUE(log_lines->wait_for("the referee is heard again"));
+  EXPECT_TRUE(log_lines->wait_for("the referee is received again"));
   word.playing = false;
   referee_says(word);
   EXPECT_FALSE(playing_at(5'000'000'000));

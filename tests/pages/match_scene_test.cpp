@@ -77,13 +77,13 @@ TEST_F(Scene, AStreamThatFallsSilentIsAnAlarmUntilItIsHeardAgain) {
   play(400);
   EXPECT_THAT(alarms(), IsEmpty()) << "a busy machine is no fault";
   play(600);
-  EXPECT_THAT(alarms(), ElementsAre("robot 1: no kicker_status is heard any more"));
+  EXPECT_THAT(alarms(), ElementsAre("robot 1: no kicker_status is received any more"));
   speaks.kicker = true;
   play(200);
   EXPECT_THAT(alarms(), IsEmpty());
   const json mended = match()["mended"];
   ASSERT_EQ(mended.size(), 1u);
-  EXPECT_EQ(mended[0]["text"], "robot 1: no kicker_status is heard any more");
+  EXPECT_EQ(mended[0]["text"], "robot 1: no kicker_status is received any more");
   EXPECT_GT(mended[0]["to_ms"], mended[0]["from_ms"]);
 }
 
@@ -97,7 +97,7 @@ TEST_F(Scene, ARefereeWhoFallsSilentIsNamed) {
 TEST_F(Scene, WithoutARefereeFromTheBeginningSaysSo) {
   speaks.referee = false;
   play(200);
-  EXPECT_THAT(alarms(), ElementsAre("no referee has been heard"));
+  EXPECT_THAT(alarms(), ElementsAre("no referee has been received"));
 }
 
 TEST_F(Scene, ARobotOfWhichEverythingIsSilentIsOneAlarmAndKeepsItsPlaceOnTheField) {
@@ -107,7 +107,7 @@ TEST_F(Scene, ARobotOfWhichEverythingIsSilentIsOneAlarmAndKeepsItsPlaceOnTheFiel
   EXPECT_THAT(alarms(), ElementsAre("robot 1 is silent"));
   EXPECT_EQ(robot()["fresh"], false);
   EXPECT_EQ(robot()["x"], 1.0);
-  EXPECT_EQ(robot()["why"], "nothing is heard of what it believes");
+  EXPECT_EQ(robot()["why"], "no world_state is received");
 }
 
 TEST_F(Scene, AfterTheMatchSilenceIsNoAlarm) {
@@ -259,7 +259,7 @@ TEST_F(Scene, SaysWhyARobotHoldsOrFires) {
   EXPECT_EQ(robot()["why"], "it does not have the ball");
   possession = true;
   play(100);
-  EXPECT_EQ(robot()["why"], "it has the ball, and no decision is heard");
+  EXPECT_EQ(robot()["why"], "it has the ball, and no decision is received");
   scene.hear(decision(1, 0, msg::POLICY_MOVING, 1), 5, now);
   EXPECT_EQ(robot()["fires"], false);
   EXPECT_EQ(robot()["why"], "the two segments do not meet");

@@ -24,7 +24,7 @@ TEST(RunningTable, HasARowAPolicyInTheirOrderAndTheDifferenceOfTheFirstTwoThatKi
   EXPECT_EQ(table.rows[0].policy, "stopped");
   EXPECT_EQ(table.rows[1].policy, "moving");
   EXPECT_EQ(table.rows[2].policy, "predictive");
-  EXPECT_EQ(table.rows[3].policy, "not heard");
+  EXPECT_EQ(table.rows[3].policy, "not received");
   EXPECT_EQ(table.rows[0].interval.lo, 0.0) << "nothing is known yet";
   EXPECT_EQ(table.rows[0].interval.hi, 1.0);
   EXPECT_EQ(table.rows[1].counts().n, 10) << "an unknown outcome is neither";

@@ -89,7 +89,7 @@ TEST(RefereeWatch, TellsEachEdgeOnce) {
             "the referee is silent, its last command is of 2.00 s ago: the game counts as stopped");
   EXPECT_FALSE(watch.news(13 * kSecond_ns));
   watch.heard(word(14 * kSecond_ns, true), 14 * kSecond_ns);
-  EXPECT_EQ(watch.news(14 * kSecond_ns), "the referee is heard again");
+  EXPECT_EQ(watch.news(14 * kSecond_ns), "the referee is received again");
   EXPECT_FALSE(watch.news(14 * kSecond_ns));
 }
 
