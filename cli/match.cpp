@@ -1,12 +1,18 @@
+#include <fmt/core.h>
 #include <fmt/ranges.h>
+#include <stdlib.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include "cli/launch/record_match.hpp"
-#include "cli/launch/throwaway_keys.hpp"
 #include "cli/options/number_checks.hpp"
 #include "cli/verbs.hpp"
 #include "cli/watch/watch_page.hpp"
@@ -18,10 +24,59 @@
 #include "config/settings.hpp"
 #include "config/text/error.hpp"
 #include "config/text/installation.hpp"
+#include "nodes/runtime/node_flags.hpp"
 #include "nodes/simulator/simulator_node.hpp"
+#include "security/key_folder.hpp"
+#include "security/rights.hpp"
 
 namespace trivela::cli {
 namespace {
+
+/// Keys of a robot in a private temporary folder, which goes with the object.
+class ThrowawayKeys {
+ public:
+  /// For every kind of node. Throws std::system_error where no folder can be made.
+  explicit ThrowawayKeys(std::uint32_t robot_id);
+  ThrowawayKeys(const ThrowawayKeys&) = delete;
+  ThrowawayKeys& operator=(const ThrowawayKeys&) = delete;
+  ~ThrowawayKeys();
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+ThrowawayKeys::ThrowawayKeys(std::uint32_t robot_id) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "trivela_keys_XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) throw std::system_error{errno, std::generic_category(), pattern};
+  folder_ = pattern;
+  const security::KeyFolder keys{folder_};
+  const security::Validity today = security::days_from(security::this_second(), 1);
+  keys.init(today);
+  std::vector<std::string> every;
+  for (const security::Rights& rights : security::all_rights()) every.push_back(rights.node);
+  keys.issue(robot_id, every, today);
+}
+
+ThrowawayKeys::~ThrowawayKeys() {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+/// From now on the nodes that this process starts join the bus with the keys in the folder. An empty name: with keys
+/// made for the purpose, which the result keeps. Throws UsageError naming what is wrong with the folder's keys.
+std::unique_ptr<ThrowawayKeys> secure_children(const std::string& folder, std::uint32_t robot_id) {
+  if (folder.empty()) {
+    auto keys = std::make_unique<ThrowawayKeys>(robot_id);
+    setenv(nodes::kKeysVariable, keys->folder().c_str(), 1);
+    return keys;
+  }
+  const auto faults = security::faults_of(security::KeyFolder{folder}, security::this_second());
+  if (!faults.empty()) throw UsageError{fmt::format("--secure: {}", faults.front())};
+  setenv(nodes::kKeysVariable, std::filesystem::absolute(folder).c_str(), 1);
+  return nullptr;
+}
 
 /// Policies of play before the drives; one that needs the truth is refused by a sentence of its own.
 std::vector<std::string> half_policies() {

@@ -1,9 +1,11 @@
 #include "cli/program.hpp"
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -14,10 +16,10 @@
 
 #include "cli/launch/progress_bar.hpp"
 #include "cli/manual/manual.hpp"
-#include "cli/options/finite_numbers.hpp"
 #include "cli/options/output.hpp"
 #include "config/text/error.hpp"
 #include "config/text/installation.hpp"
+#include "config/text/parse_number.hpp"
 #include "kicking/text/nearest_word.hpp"
 #include "log/file/log_check.hpp"
 #include "log/file/new_file.hpp"
@@ -25,6 +27,19 @@
 
 namespace trivela::cli {
 namespace {
+
+/// Lets every number with a fraction that `verb` and its subcommands take be finite: CLI11 reads "nan" and "inf", and
+/// its ranges let NaN through. Call it when all flags are there.
+inline void require_finite_numbers(CLI::App& verb) {
+  const auto problem = [](const std::string& text) -> std::string {
+    const auto value = config::parse_number(text);
+    return value && !std::isfinite(*value) ? text + " is not a finite number" : "";
+  };
+  for (CLI::Option* option : verb.get_options()) {
+    if (option->get_type_name().starts_with(CLI::detail::type_name<double>())) option->check(problem);
+  }
+  for (CLI::App* part : verb.get_subcommands(nullptr)) require_finite_numbers(*part);
+}
 
 void add_verbs(CLI::App& app, const std::vector<VerbGroup>& groups, int& exit_code) {
   for (const VerbGroup& group : groups) {

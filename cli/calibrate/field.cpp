@@ -3,20 +3,102 @@
 #include <memory>
 #include <optional>
 
-#include "cli/calibrate/asked_drives.hpp"
+#include "calibration/calibration_record.hpp"
+#include "calibration/drive_source.hpp"
+#include "calibration/field_steps.hpp"
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/calibrate/robot_drives.hpp"
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/run_flags.hpp"
 #include "cli/calibrate/run_report.hpp"
+#include "cli/launch/person.hpp"
 #include "cli/options/match_mode.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/scenario/scenario.hpp"
+#include "config/settings.hpp"
+#include "config/text/csv_row.hpp"
+#include "config/text/parse_number.hpp"
 #include "experiment/calibration/simulated_calibration.hpp"
 
 namespace trivela::cli {
 namespace {
+
+/// Somebody left for today: the same command goes on from here.
+struct LeftForToday : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The drives of a calibration on a field: before each a person is told what to place and asked to go on, and each that
+/// was played to its end is in the record. One that the record has is read from its records.
+class AskedDrives : public calibration::DriveSource {
+ public:
+  /// All outlive it. `played_by`: plays what was confirmed.
+  AskedDrives(calibration::DriveSource& played_by, const config::Settings& settings,
+              calibration::CalibrationRecord& kept, Person& person)
+      : played_by_(played_by), settings_(settings), kept_(kept), person_(person) {}
+
+  /// Throws LeftForToday, and what the source throws; then the records so far are set aside when it is played again.
+  calibration::DriveRecord play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) override;
+
+ private:
+  calibration::DriveSource& played_by_;
+  const config::Settings& settings_;
+  calibration::CalibrationRecord& kept_;
+  Person& person_;
+};
+
+std::string answer_to(Person& person, const std::string& question, const calibration::CalibrationRecord& kept) {
+  const auto said = person.ask(question);
+  std::string answer = said ? config::trimmed(*said) : "q";
+  if (answer == "q" || answer == "Q" || answer == "quit")
+    throw LeftForToday{
+        fmt::format("left for today; the same command goes on from here, with {}", kept.folder().string())};
+  return answer;
+}
+
+/// Whoever types anything else did not mean to start a robot.
+void wait_for_enter(Person& person, const calibration::CalibrationRecord& kept) {
+  for (;;) {
+    const std::string answer = answer_to(person, "Enter: begin; q: leave for today: ", kept);
+    if (answer.empty()) return;
+    say(fmt::format("'{}' begins nothing.\n", answer));
+  }
+}
+
+/// Asks for the length, proposing what is in the record, else `proposed`; keeps the answer. Throws LeftForToday.
+double ask_for(const calibration::FieldMeasure& measure, double proposed, calibration::CalibrationRecord& kept,
+               Person& person) {
+  if (const auto known = kept.measured(measure.name)) {
+    say(fmt::format("{}: {:.3f} (measured before)\n", measure.question, *known));
+    return *known;
+  }
+  for (;;) {
+    const std::string answer = answer_to(person, fmt::format("{} [{:.3f}]: ", measure.question, proposed), kept);
+    const auto value = answer.empty() ? std::optional{proposed} : config::parse_number(answer);
+    if (value && *value >= measure.least_m && *value <= measure.most_m) {
+      kept.measure(measure.name, *value);
+      return *value;
+    }
+    say(fmt::format("'{}' is no length from {:.1f} to {:.1f} m.\n", answer, measure.least_m, measure.most_m));
+  }
+}
+
+calibration::DriveRecord AskedDrives::play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) {
+  if (kept_.finished(plan.name)) {
+    say(fmt::format("{}: played before, from its records\n", plan.name));
+    calibration::DriveRecord record = drive_files(kept_.folder(), plan);
+    read_back(record);
+    return record;
+  }
+  if (calibration::set_aside(kept_.folder(), plan.name) > 0)
+    say(fmt::format("{}: what was recorded of an earlier start is kept as {}.partial-*\n", plan.name, plan.name));
+  say(fmt::format("\n{}\n{}", plan.name, calibration::instructions(plan, settings_)));
+  wait_for_enter(person_, kept_);
+  calibration::DriveRecord record = played_by_.play(plan, robot);
+  kept_.finish(plan.name);
+  return record;
+}
 
 namespace fs = std::filesystem;
 

@@ -1,22 +1,55 @@
 #include "cli/launch/record_match.hpp"
 
 #include <fmt/core.h>
+#include <poll.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <random>
+#include <string>
 
 #include "cli/launch/config_file.hpp"
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "cli/watch/match_watch.hpp"
+#include "cli/watch/watch_page.hpp"
 #include "log/read/reader.hpp"
+#include "nodes/runtime/node_flags.hpp"
 
 namespace trivela::cli {
+namespace {
 
 namespace fs = std::filesystem;
+
+/// The live page of a match that this process plays.
+class MatchWatch {
+ public:
+  /// Serves it and prints its address; `flags` nullptr: nobody watches. `settings`: of the run, with its domain. Throws
+  /// what WatchPage does.
+  MatchWatch(const WatchFlags* flags, const config::Settings& settings) {
+    if (flags == nullptr) return;
+    const char* const keys = std::getenv(nodes::kKeysVariable);  // as the nodes find them
+    page_.emplace(*flags, settings, keys == nullptr ? "" : keys, scene_settings(settings));
+  }
+
+  /// A match that was played to its end stays to be looked at until somebody asks to stop.
+  void stay_after(const MatchResult& result, SignalInbox& signals) {
+    if (!page_ || !result.trouble.empty()) return;
+    page_->note_over();
+    say("the match is over; its page stays until Ctrl-C\n");
+    std::fflush(stdout);
+    for (pollfd inbox{signals.file_descriptor(), POLLIN, 0}; !signals.stop_requested();) poll(&inbox, 1, -1);
+  }
+
+ private:
+  std::optional<WatchPage> page_;
+};
+
+}  // namespace
 
 std::int64_t lost_rows(const std::string& log) {
   std::int64_t missing = 0;

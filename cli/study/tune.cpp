@@ -8,7 +8,7 @@
 #include "cli/options/number_checks.hpp"
 #include "cli/study/study_run.hpp"
 #include "config/text/installation.hpp"
-#include "experiment/study/tune/tune_report.hpp"
+#include "experiment/study/tune/tune.hpp"
 
 namespace trivela::cli {
 namespace {
