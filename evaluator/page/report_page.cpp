@@ -9,6 +9,8 @@
 #include "evaluator/page/page.css.hpp"
 #include "evaluator/page/page.js.hpp"
 #include "evaluator/render/simulated.hpp"
+#include "evaluator/render/text_table.hpp"
+#include "evaluator/story/decided_again.hpp"
 #include "evaluator/story/replay.hpp"
 
 namespace trivela::evaluator::page {
@@ -83,6 +85,14 @@ std::string stories(const PageData& data) {
   return text + "\n]";
 }
 
+// Of a policy alone.
+std::string one_policy(const PolicyRow& row) {
+  const auto share = stats::efficiency(row.counts());
+  if (!share) return fmt::format("{}: no kick whose outcome is known.", name_of(row));
+  return fmt::format("{}: {} of {} kicks on target, {} (95 % {}).", name_of(row), row.inside(), row.counts().n,
+                     percent(*share), percent(row.efficiency_ci()));
+}
+
 }  // namespace
 
 std::string to_html(const Report& report, const PageData& data) {
@@ -108,6 +118,40 @@ std::string to_html(const Report& report, const PageData& data) {
 std::string report_page(const Report& report, const std::vector<std::filesystem::path>& logs,
                         const PageProgress& progress) {
   return to_html(report, read_page_data(logs, progress));
+}
+
+std::string decided_again_section(const PageView& view) {
+  std::string body;
+  for (const DecidedAgain& again : view.data.again) {
+    body += "<h3>" + html(fmt::format("{}, decided again in {}", again.log, again.again_log)) + "</h3>\n";
+    body += paragraphs(sentences_of(again));
+    if (!again.orders.empty())
+      body += table("What was ordered in a possession, and what would have been", table_of(again));
+  }
+  return section("again", "Decided again", body);
+}
+
+std::string verdict_section(const PageView& view) {
+  std::vector<std::string> verdicts, notes;
+  if (view.data.comparison) {
+    const PolicyComparison& comparison = *view.data.comparison;
+    for (const PairResult& pair : comparison.pairs) {
+      verdicts.push_back(verdict_sentence(pair, comparison));
+      notes.push_back("Design: " + design_sentence(pair, comparison) + ".");
+      if (const std::string needed = needed_sentence(pair, comparison); !needed.empty()) notes.push_back(needed);
+    }
+  } else {
+    for (const PolicyRow& row : view.report.policies) verdicts.push_back(one_policy(row));
+    if (view.report.policies.empty()) verdicts.emplace_back("There are no kicks.");
+    notes.push_back("Nothing is compared: " + view.data.no_comparison + ".");
+  }
+  notes.emplace_back(
+      "On target means between the posts and below the bar, saves included: it is not goals scored. An interval of 95 "
+      "% "
+      "is where the true value lies in 95 of 100 such reports, if kicks are alike and nothing else changed.");
+  std::string body = "<div class=\"verdict\">\n" + paragraphs(verdicts) + "</div>\n";
+  body += "<div class=\"caveat\">\n" + paragraphs(notes) + "</div>\n";
+  return section("verdict", "Verdict", body);
 }
 
 }  // namespace trivela::evaluator::page

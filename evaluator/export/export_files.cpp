@@ -1,4 +1,4 @@
-#include "evaluator/export/export_plan.hpp"
+#include "evaluator/export/export_files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
