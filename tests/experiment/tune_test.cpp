@@ -7,7 +7,7 @@
 #include <set>
 
 #include "config/text/error.hpp"
-#include "experiment/study/tune/tune_report.hpp"
+#include "experiment/study/tune/tune.hpp"
 
 namespace trivela::experiment {
 namespace {
