@@ -1,9 +1,11 @@
 #include "log/file/session_tallies.hpp"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
 #include <array>
 #include <set>
+#include <string>
 #include <string_view>
 
 #include "log/file/ball_turns.hpp"
@@ -11,12 +13,32 @@
 #include "log/file/driver_counts_of.sql.hpp"
 #include "log/file/first_decisions_of.sql.hpp"
 #include "log/file/heard_halves_of.sql.hpp"
-#include "log/file/own_rows.hpp"
+#include "log/file/log_file.hpp"
 #include "log/file/played_spans_of.sql.hpp"
+#include "log/schema/queries.hpp"
 #include "log/schema/row_digest.hpp"
 
 namespace trivela::log {
 namespace {
+
+/// Rows of a database of our own that is being written. Errors are SQLite's.
+class OwnRows final : public Queries {
+ public:
+  explicit OwnRows(SQLite::Database& database) : database_(database) {}
+
+ private:
+  void each_row(std::string_view sql, const HeadFunction& head, const RowFunction& fn) const override {
+    SQLite::Statement statement(database_, std::string(sql));
+    if (head) head(names_of(statement));
+    std::vector<Value> row(static_cast<std::size_t>(statement.getColumnCount()));
+    while (statement.executeStep()) {
+      for (std::size_t i = 0; i < row.size(); ++i) row[i] = value_of(statement.getColumn(static_cast<int>(i)));
+      fn(row);
+    }
+  }
+
+  SQLite::Database& database_;
+};
 
 /// What is counted of the sessions that `wanted`, a SELECT, names, as a SELECT.
 std::string counted(std::string_view wanted, std::string_view what) {
