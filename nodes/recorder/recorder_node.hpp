@@ -1,19 +1,90 @@
 #pragma once
 
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "bus/reader.hpp"
+#include "bus/writer_watch.hpp"
 #include "log/read/clock_offsets.hpp"
 #include "log/write/writer.hpp"
-#include "nodes/recorder/recording_state.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "robot/watch/cycle_watch.hpp"
+#include "robot/watch/fire_watch.hpp"
+#include "robot/watch/instant_watch.hpp"
+#include "robot/watch/sequence_watch.hpp"
+#include "robot/watch/silence_lines.hpp"
+#include "robot/watch/silence_watch.hpp"
+
+#include <spdlog/logger.h>
 
 namespace trivela::nodes {
+
+/// Writes a row for each silence of a stream to the log, when it begins and again when it ends, and warns of it. By the
+/// samples' own t_ns: what merely came late to the recorder is no silence. For any thread.
+class SilenceRecord {
+ public:
+  /// How often look() is to be called.
+  static constexpr std::chrono::milliseconds kStep{20};
+
+  /// Streams have at least the period of a cycle.
+  SilenceRecord(std::shared_ptr<spdlog::logger> logger, double cycle_s, log::Writer& log)
+      : logger_(std::move(logger)), cycle_s_(cycle_s), log_(log) {}
+
+  /// The number of a stream, by the table of its samples, and with its period where it is new.
+  std::size_t add(const std::string& table, double period_s);
+
+  void heard(std::size_t stream, std::uint8_t robot_id, std::int64_t t_ns);
+  void look(std::int64_t now_ns);
+
+ private:
+  void write(const robot::SilenceEdge& edge);
+
+  const std::shared_ptr<spdlog::logger> logger_;
+  const double cycle_s_;
+  log::Writer& log_;
+  std::mutex mutex_;  // of what follows
+  std::vector<std::string> tables_;
+  robot::SilenceWatch watch_{std::chrono::nanoseconds{kStep}.count()};
+  robot::SilenceLines lines_;
+};
+
+/// What is known of a stream from the samples before.
+struct StreamWatch {
+  robot::SequenceWatch numbers;
+  robot::InstantWatch instants;
+  std::map<std::uint8_t, bus::WriterWatch> writers{};                       ///< by robot
+  std::map<std::uint8_t, std::pair<std::uint64_t, std::int64_t>> latest{};  ///< seq and t_ns of a robot's last sample
+  bool events = false;  ///< without a period: what is skipped has no silence of its own
+
+  /// A sample that a late joiner is given once more.
+  bool repeats(std::uint8_t robot_id, std::uint64_t seq, std::int64_t t_ns) const {
+    const auto last = latest.find(robot_id);
+    return last != latest.end() && last->second == std::pair{seq, t_ns};
+  }
+};
+
+/// What a recorder knows of the log that it writes: it outlives a node that joins the bus again, as the log does.
+struct RecordingState {
+  std::map<std::string, StreamWatch> streams;              ///< by table
+  std::set<std::tuple<int, int, std::uint32_t>> assigned;  ///< robot, half, possession that a policy was noted for
+  std::map<std::uint8_t, std::int64_t> clocks;             ///< when another participant's clock was noted last
+  std::shared_ptr<SilenceRecord> silences;                 ///< none in lockstep
+  robot::FireWatch fires;                                  ///< on a bus without keys
+  std::filesystem::path log;                               ///< for notes
+  std::atomic<bool> emulated = false;                      ///< the log says that the session is simulated
+  std::atomic<bool> truth_told = false;                    ///< and in which world
+};
 
 /// Every message of the graph, of every robot in the domain, to one SQLite match log; in real time also what was
 /// silent.
