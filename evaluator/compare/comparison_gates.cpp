@@ -30,17 +30,13 @@ Numbers of_counts(stats::Counts efficiency, stats::Interval ci) {
 }
 
 NumbersOf of_group(const GroupResult& group) {
-  NumbersOf of{group.name, of_counts(group.efficiency(), group.efficiency_ci)};
-  const auto per_min = [&](std::int64_t n) {
-    return group.minutes && *group.minutes > 0.0 ? std::optional(static_cast<double>(n) / *group.minutes)
-                                                 : std::nullopt;
-  };
+  NumbersOf of{group.name, of_counts(group.counts(), group.efficiency_ci)};
   of.numbers["kicks"] = counted(group.kicks());
-  of.numbers["unknown_share"] = stats::efficiency({group.unknown, group.kicks()});
+  of.numbers["unknown_share"] = stats::efficiency({group.unknown(), group.kicks()});
   of.numbers["on_target_per_opportunity"] = stats::efficiency(group.per_opportunity());
-  of.numbers["goals_per_opportunity"] = stats::efficiency({group.goals, group.opportunities});
-  of.numbers["kicks_per_min"] = per_min(group.kicks());
-  of.numbers["on_target_per_min"] = per_min(group.inside);
+  of.numbers["goals_per_opportunity"] = stats::efficiency({group.goals(), group.opportunities});
+  of.numbers["kicks_per_min"] = group.kicks_per_min();
+  of.numbers["on_target_per_min"] = group.per_min(group.inside());
   return of;
 }
 

@@ -22,27 +22,16 @@ Ending past_keeper(const Opportunity& o) {
   return !o.saved ? Ending::kUnknown : *o.saved ? Ending::kOutside : Ending::kInside;
 }
 
-void count(GroupResult& result, const Opportunity& o) {
-  result.inside += o.ending == Ending::kInside ? 1 : 0;
-  result.outside += o.ending == Ending::kOutside ? 1 : 0;
-  result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
-  result.blocked += o.ending == Ending::kBlocked ? 1 : 0;
-  result.goals += past_keeper(o) == Ending::kInside ? 1 : 0;
-  result.goal_not_known += o.ending == Ending::kInside && !o.saved ? 1 : 0;
-  result.doubt += {o.ending == Ending::kInside ? o.doubt : 0.0, o.ending == Ending::kOutside ? o.doubt : 0.0};
-  if (o.ending != Ending::kInside) return;
-  result.inside_kicks.bounced.add(o.bounced, o.truth_bounced);
-  result.inside_kicks.saved.add(o.observed_saved, o.truth_saved);
-}
-
 GroupResult group_result(const KickDataset& dataset, std::uint32_t group) {
   GroupResult result;
   result.name = dataset.groups[group];
+  result.blocked_apart = dataset.blocked_apart;
+  result.by_truth = dataset.outcome == "truth";
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<stats::ClusterCounts, 3>> cells;  // match, calibration
   for (const Opportunity& o : dataset.opportunities) {
     if (o.group != group) continue;
     result.opportunities += dataset.has_opportunities ? 1 : 0;
-    count(result, o);
+    result.add(o);
     if (!dataset.has_matches) continue;
     const stats::ClusterCounts empty{o.match, o.calibration, {}};
     auto& [all, known, past] =
@@ -61,17 +50,15 @@ GroupResult group_result(const KickDataset& dataset, std::uint32_t group) {
   }
   result.matches = matches.size();
   const auto by_match = stats::clustered_wilson(kicks);
-  result.efficiency_ci = by_match.value_or(stats::wilson_or_exact(result.efficiency()));
+  result.efficiency_ci = by_match.value_or(stats::wilson_or_exact(result.counts()));
   result.per_opportunity_ci =
       stats::clustered_wilson(opportunities).value_or(stats::wilson_or_exact(result.per_opportunity()));
   result.goals_ci =
-      stats::clustered_wilson(goals).value_or(stats::wilson_or_exact({result.goals, result.opportunities}));
+      stats::clustered_wilson(goals).value_or(stats::wilson_or_exact({result.goals(), result.opportunities}));
   result.by_match = by_match.has_value();
   for (const auto& [key, minutes] : dataset.minutes) {
-    if (key.first == group) result.minutes = result.minutes.value_or(0.0) + minutes;
+    if (key.first == group) result.played_min = result.played_min.value_or(0.0) + minutes;
   }
-  if (result.unknown > 0 || result.doubt.sum() > 0.0)
-    result.efficiency_bounds = stats::efficiency_bounds({result.efficiency(), result.unknown, result.doubt});
   return result;
 }
 
@@ -142,7 +129,7 @@ Stratified stratified(const KickDataset& dataset, const std::vector<stats::Match
 // `place` of the newer one in the dataset; the older one is its first.
 std::optional<stats::RateRatio> rate(const KickDataset& dataset, const GroupResult& older, const GroupResult& newer,
                                      std::uint32_t place, bool inside_only) {
-  if (!older.minutes || !newer.minutes || *older.minutes <= 0.0 || *newer.minutes <= 0.0) return std::nullopt;
+  if (!older.kicks_per_min() || !newer.kicks_per_min()) return std::nullopt;
   std::vector<stats::MatchRates> matches(dataset.has_matches ? dataset.matches : 0);
   for (std::uint32_t m = 0; m < matches.size(); ++m) matches[m].match = m;
   for (const auto& [key, minutes] : dataset.minutes) {
@@ -155,8 +142,8 @@ std::optional<stats::RateRatio> rate(const KickDataset& dataset, const GroupResu
     (o.group == 0 ? matches[o.match].older : matches[o.match].newer).events += counts ? 1 : 0;
   }
   if (const auto by_match = stats::clustered_rate_ratio(matches)) return by_match;
-  const auto events = [&](const GroupResult& group) { return inside_only ? group.inside : group.kicks(); };
-  return stats::rate_ratio({events(older), *older.minutes}, {events(newer), *newer.minutes});
+  const auto events = [&](const GroupResult& group) { return inside_only ? group.inside() : group.kicks(); };
+  return stats::rate_ratio({events(older), *older.played_min}, {events(newer), *newer.played_min});
 }
 
 PairResult pair_result(const KickDataset& dataset, const GroupResult& older, const GroupResult& newer,
@@ -183,7 +170,7 @@ PairResult pair_result(const KickDataset& dataset, const GroupResult& older, con
     pair.per_opportunity = effect(cells_of(dataset, 0, place, true), dataset.has_matches);
   }
   if (pair.efficiency)
-    pair.kicks = compare({older.name, older.efficiency()}, {newer.name, newer.efficiency()}, smallest_effect);
+    pair.kicks = compare({older.name, older.counts()}, {newer.name, newer.counts()}, smallest_effect);
   if (!dataset.strata.empty()) {
     const bool of_opportunities = dataset.has_opportunities && !dataset.strata_of_kicks;
     pair.stratified =
@@ -191,16 +178,16 @@ PairResult pair_result(const KickDataset& dataset, const GroupResult& older, con
   }
   pair.on_target_rate = rate(dataset, older, newer, place, true);
   pair.kick_rate = rate(dataset, older, newer, place, false);
-  pair.unknown = older.unknown + newer.unknown;
+  pair.unknown = older.unknown() + newer.unknown();
   pair.expected_wrong = older.doubt.sum() + newer.doubt.sum();
   if (!pair.efficiency && !pair.per_opportunity) {
-    const GroupResult& empty = older.efficiency().n == 0 ? older : newer;
+    const GroupResult& empty = older.counts().n == 0 ? older : newer;
     pair.why_none = fmt::format("{} has no kick whose outcome is known, so there is nothing to compare", empty.name);
     return pair;
   }
   const auto known = [&](const GroupResult& g) {
-    const auto counts = pair.per_opportunity ? stats::Counts{g.inside, g.opportunities - g.unknown} : g.efficiency();
-    return stats::DoubtfulCounts{counts, g.unknown, g.doubt};
+    const auto counts = pair.per_opportunity ? stats::Counts{g.inside(), g.opportunities - g.unknown()} : g.counts();
+    return stats::DoubtfulCounts{counts, g.unknown(), g.doubt};
   };
   pair.bounds = stats::difference_bounds(known(older), known(newer));
   pair.headline = headline_of(pair, smallest_effect);

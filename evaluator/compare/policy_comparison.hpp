@@ -9,11 +9,10 @@
 
 #include "evaluator/compare/comparison.hpp"
 #include "evaluator/compare/log_differences.hpp"
-#include "evaluator/counting/inside_kicks.hpp"
+#include "evaluator/counting/kick_counts.hpp"
 #include "evaluator/counting/kick_dataset.hpp"
 #include "evaluator/render/gate.hpp"
 #include "evaluator/stats/clustered.hpp"
-#include "evaluator/stats/counts/label_doubt.hpp"
 #include "evaluator/stats/counts/strata.hpp"
 #include "evaluator/stats/counts/verdict.hpp"
 #include "evaluator/stats/paired.hpp"
@@ -22,29 +21,18 @@
 namespace trivela::evaluator {
 
 /// One policy (table, robot, arm) of a comparison.
-struct GroupResult {
+struct GroupResult : KickCounts {
   std::string name;
-  std::int64_t opportunities = 0;  ///< 0: not known
-  std::int64_t inside = 0;
-  std::int64_t outside = 0;
-  std::int64_t unknown = 0;
-  stats::LabelDoubt doubt;             ///< of the labels
-  std::int64_t blocked = 0;            ///< where they stand apart; otherwise they are outside
-  std::int64_t goals = 0;              ///< inside, and known that no keeper stopped them
-  std::int64_t goal_not_known = 0;     ///< inside, and not known whether a keeper stopped them
-  InsideKicks inside_kicks;            ///< of those inside
+  std::int64_t opportunities = 0;      ///< 0: not known
   std::size_t matches = 0;             ///< 0: not known
-  std::optional<double> minutes;       ///< of play; none: not known
   stats::Interval efficiency_ci;       ///< of inside / (inside + outside)
   stats::Interval per_opportunity_ci;  ///< of inside / opportunities
   stats::Interval goals_ci;            ///< of goals / opportunities
   bool by_match = false;               ///< the intervals allow for kicks of one match being alike
-  std::optional<stats::Interval>
-      efficiency_bounds;  ///< with the unknown kicks and the doubt of the labels; none: neither
 
-  std::int64_t kicks() const { return inside + outside + unknown + blocked; }
-  stats::Counts efficiency() const { return {inside, inside + outside}; }
-  stats::Counts per_opportunity() const { return {inside, opportunities}; }
+  stats::Counts per_opportunity() const { return {inside(), opportunities}; }
+  /// There are unknown kicks, or doubt of the labels.
+  bool is_bounded() const { return unknown() > 0 || doubt.sum() > 0.0; }
 };
 
 /// A difference newer - older of proportions, with everything that can be said for its interval.

@@ -13,35 +13,32 @@ Json inside_of_n(stats::Counts counts) { return {{"inside", counts.inside}, {"n"
 Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
 Json group_json(const GroupResult& g, bool keeper, bool blocked_apart) {
-  const auto per = [](std::int64_t n, std::optional<double> minutes) {
-    return minutes && *minutes > 0.0 ? Json(static_cast<double>(n) / *minutes) : Json();
-  };
   return {{"name", g.name},
           {"opportunities", g.opportunities > 0 ? Json(g.opportunities) : Json()},
           {"kicks", g.kicks()},
-          {"inside", g.inside},
-          {"outside", g.outside},
-          {"unknown", g.unknown},
+          {"inside", g.inside()},
+          {"outside", g.outside()},
+          {"unknown", g.unknown()},
           {"expected_wrong", {{"inside", g.doubt.inside}, {"outside", g.doubt.outside}}},
-          {"blocked", blocked_apart ? Json(g.blocked) : Json()},
+          {"blocked", blocked_apart ? Json(g.blocked()) : Json()},
           {"bounced", said_json(g.inside_kicks.bounced, "bounced")},
           {"saved", said_json(g.inside_kicks.saved, "saved")},
-          {"goals", keeper ? Json(g.goals) : Json()},
-          {"goal_not_known", keeper ? Json(g.goal_not_known) : Json()},
-          {"goals_per_opportunity", keeper ? json_of(stats::efficiency({g.goals, g.opportunities})) : Json()},
+          {"goals", keeper ? Json(g.goals()) : Json()},
+          {"goal_not_known", keeper ? Json(g.goal_not_known()) : Json()},
+          {"goals_per_opportunity", keeper ? json_of(stats::efficiency({g.goals(), g.opportunities})) : Json()},
           {"goals_per_opportunity_ci95", keeper && g.opportunities > 0 ? json_of(g.goals_ci) : Json()},
           {"matches", g.matches > 0 ? Json(g.matches) : Json()},
-          {"efficiency", json_of(stats::efficiency(g.efficiency()))},
+          {"efficiency", json_of(stats::efficiency(g.counts()))},
           {"efficiency_ci95", json_of(g.efficiency_ci)},
-          {"efficiency_bounds", g.efficiency_bounds ? json_of(*g.efficiency_bounds) : Json()},
+          {"efficiency_bounds", g.is_bounded() ? json_of(g.efficiency_bounds()) : Json()},
           {"ci_by_match", g.by_match},
           {"kicks_per_opportunity",
            g.opportunities > 0 ? Json(static_cast<double>(g.kicks()) / static_cast<double>(g.opportunities)) : Json()},
           {"on_target_per_opportunity", json_of(stats::efficiency(g.per_opportunity()))},
           {"on_target_per_opportunity_ci95", g.opportunities > 0 ? json_of(g.per_opportunity_ci) : Json()},
-          {"minutes", json_of(g.minutes)},
-          {"kicks_per_min", per(g.kicks(), g.minutes)},
-          {"on_target_per_min", per(g.inside, g.minutes)}};
+          {"minutes", json_of(g.played_min)},
+          {"kicks_per_min", json_of(g.kicks_per_min())},
+          {"on_target_per_min", json_of(g.per_min(g.inside()))}};
 }
 
 Json clustered_json(const std::optional<stats::Clustered>& c) {

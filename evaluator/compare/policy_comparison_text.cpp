@@ -27,17 +27,17 @@ std::string share_ci(stats::Counts counts, stats::Interval ci) { return counts.n
 std::string groups_table(const PolicyComparison& c) {
   Table table = {{c.by, "inside", "outside", "unknown", "efficiency", "95 %", "matches"}};
   for (const GroupResult& g : c.groups) {
-    table.push_back({g.name, whole(g.inside), whole(g.outside), whole(g.unknown), share(g.efficiency()),
-                     share_ci(g.efficiency(), g.efficiency_ci),
+    table.push_back({g.name, whole(g.inside()), whole(g.outside()), whole(g.unknown()), share(g.counts()),
+                     share_ci(g.counts(), g.efficiency_ci),
                      g.matches > 0 ? whole(static_cast<std::int64_t>(g.matches)) : "-"});
   }
   if (c.dataset.blocked_apart) {
     table[0].push_back("blocked");
-    for (std::size_t i = 0; i < c.groups.size(); ++i) table[i + 1].push_back(whole(c.groups[i].blocked));
+    for (std::size_t i = 0; i < c.groups.size(); ++i) table[i + 1].push_back(whole(c.groups[i].blocked()));
   }
   std::string text = "\nEfficiency\n" + text_table(table);
   if (c.dataset.blocked_apart) text += "  blocked kicks stand apart: neither outside nor in the efficiency\n";
-  const bool few = std::ranges::any_of(c.groups, [](const GroupResult& g) { return is_few(g.efficiency()); });
+  const bool few = std::ranges::any_of(c.groups, [](const GroupResult& g) { return is_few(g.counts()); });
   text += c.groups.front().by_match ? "  95 %: Wilson's, with kicks of one match taken as alike as they were\n"
           : few                     ? fmt::format(
                                           "  95 %: Wilson's, of fewer than {} kicks no narrower than Clopper and Pearson's; kicks "
@@ -49,7 +49,7 @@ std::string groups_table(const PolicyComparison& c) {
 
 std::string volume_table(const PolicyComparison& c) {
   bool minutes = false;
-  for (const GroupResult& g : c.groups) minutes = minutes || g.minutes;
+  for (const GroupResult& g : c.groups) minutes = minutes || g.played_min;
   if (!c.dataset.has_opportunities && !minutes) {
     return "\nVolume\n  neither opportunities nor minutes of play are known: how often each kicked cannot be said\n";
   }
@@ -57,14 +57,16 @@ std::string volume_table(const PolicyComparison& c) {
                   "kicks a min.", "on target a min."}};
   for (const GroupResult& g : c.groups) {
     const auto per_minute = [&](std::int64_t n) {
-      return g.minutes && *g.minutes > 0.0 ? fmt::format("{:.3f}", static_cast<double>(n) / *g.minutes) : "-";
+      const auto rate = g.per_min(n);
+      return rate ? fmt::format("{:.3f}", *rate) : "-";
     };
     table.push_back({g.name, g.opportunities > 0 ? whole(g.opportunities) : "-", whole(g.kicks()),
                      g.opportunities > 0
                          ? fmt::format("{:.3f}", static_cast<double>(g.kicks()) / static_cast<double>(g.opportunities))
                          : "-",
                      share(g.per_opportunity()), share_ci(g.per_opportunity(), g.per_opportunity_ci),
-                     g.minutes ? fmt::format("{:.1f}", *g.minutes) : "-", per_minute(g.kicks()), per_minute(g.inside)});
+                     g.played_min ? fmt::format("{:.1f}", *g.played_min) : "-", per_minute(g.kicks()),
+                     per_minute(g.inside())});
   }
   return "\nVolume\n" + text_table(table);
 }
@@ -86,8 +88,8 @@ std::string inside_text(const PolicyComparison& c) {
   if (!c.dataset.keeper) return text;
   Table table = {{c.by, "inside", "goals", "not known", "goals an opp.", "95 %"}};
   for (const GroupResult& g : c.groups) {
-    const stats::Counts goals{g.goals, g.opportunities};
-    table.push_back({g.name, whole(g.inside), whole(g.goals), whole(g.goal_not_known),
+    const stats::Counts goals{g.goals(), g.opportunities};
+    table.push_back({g.name, whole(g.inside()), whole(g.goals()), whole(g.goal_not_known()),
                      g.opportunities > 0 ? share(goals) : "-",
                      g.opportunities > 0 ? share_ci(goals, g.goals_ci) : "-"});
   }

@@ -53,12 +53,11 @@ std::string goals_table(const Report& report) {
   if (!report.keeper()) return "";
   std::vector<Cells> rows{{"policy", "inside", "goals", "saved", "not known", "goals a minute"}};
   for (const PolicyRow& row : report.policies) {
-    const SaidOfInside& saved = row.inside_kicks.saved;
     Cells& cells = rows.emplace_back(Cells{name_of(row)});
-    for (const std::int64_t n : {row.inside(), row.goals(), saved.observed_yes, row.inside() - saved.observed})
+    for (const std::int64_t n : {row.inside(), row.goals(), row.saved(), row.goal_not_known()})
       cells.push_back(std::to_string(n));
-    const bool played = row.played_min && *row.played_min > 0.0;
-    cells.push_back(played ? fmt::format("{:.2f}", static_cast<double>(row.goals()) / *row.played_min) : "\u2013");
+    const auto rate = row.per_min(row.goals());
+    cells.push_back(rate ? fmt::format("{:.2f}", *rate) : "\u2013");
   }
   return table("Goals: inside, and no keeper stopped them", rows);
 }

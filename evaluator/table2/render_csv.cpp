@@ -77,7 +77,7 @@ std::string csv_row_line(const PolicyRow& row, const std::string& robot_id, cons
     for (const std::int64_t n : {said.observed_yes, said.observed, said.truth_yes, said.truth})
       cells.push_back(csv_cell(n));
   cells.push_back(csv_cell(row.goals()));
-  cells.push_back(csv_cell(row.inside() - row.inside_kicks.saved.observed));
+  cells.push_back(csv_cell(row.goal_not_known()));
   cells.push_back(csv_cell(row.doubt.inside));
   cells.push_back(csv_cell(row.doubt.outside));
   cells.push_back(csv_cell(row.repeated));

@@ -26,7 +26,7 @@ Json policy_json(const PolicyRow& row) {
           {"bounced", said_json(row.inside_kicks.bounced, "bounced")},
           {"saved", said_json(row.inside_kicks.saved, "saved")},
           {"goals", row.goals()},
-          {"goal_not_known", row.inside() - row.inside_kicks.saved.observed},
+          {"goal_not_known", row.goal_not_known()},
           {"blocked", row.blocked_apart ? "apart" : "outside"},
           {"misses", misses}};
 }

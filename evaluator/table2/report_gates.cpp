@@ -17,11 +17,6 @@ using MetricValue = std::optional<double>;
 
 MetricValue count_of(std::int64_t n) { return static_cast<double>(n); }
 
-MetricValue per_min(std::int64_t n, const PolicyRow& row) {
-  if (!row.played_min || *row.played_min <= 0.0) return std::nullopt;
-  return static_cast<double>(n) / *row.played_min;
-}
-
 MetricValue if_kicks(const PolicyRow& row, double value) {
   return row.counts().n > 0 ? MetricValue(value) : std::nullopt;
 }
@@ -46,10 +41,10 @@ constexpr std::array kOfRow{
               }},
     RowMetric{"blocked", [](const PolicyRow& row) { return count_of(row.blocked()); }},
     RowMetric{"goals", [](const PolicyRow& row) { return count_of(row.goals()); }},
-    RowMetric{"saved", [](const PolicyRow& row) { return count_of(row.inside_kicks.saved.observed_yes); }},
+    RowMetric{"saved", [](const PolicyRow& row) { return count_of(row.saved()); }},
     RowMetric{"minutes", [](const PolicyRow& row) { return row.played_min; }},
-    RowMetric{"kicks_per_min", [](const PolicyRow& row) { return per_min(row.kicks(), row); }},
-    RowMetric{"on_target_per_min", [](const PolicyRow& row) { return per_min(row.inside(), row); }}};
+    RowMetric{"kicks_per_min", [](const PolicyRow& row) { return row.kicks_per_min(); }},
+    RowMetric{"on_target_per_min", [](const PolicyRow& row) { return row.per_min(row.inside()); }}};
 
 struct WholeMetric {
   const char* name;
@@ -100,9 +95,7 @@ std::vector<PolicyRow> rows_named(const std::vector<PolicyRow>& rows, const std:
 PolicyRow sum_of_rows(const std::vector<PolicyRow>& rows) {
   PolicyRow all = rows.front();
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    for (const auto& [outcome, kicks] : rows[i].kicks_by_outcome) all.kicks_by_outcome[outcome] += kicks;
-    all.doubt += rows[i].doubt;
-    if (rows[i].played_min) all.played_min = all.played_min.value_or(0.0) + *rows[i].played_min;
+    all += rows[i];
     all.repeated += rows[i].repeated;
   }
   if (rows.size() > 1) all.paired_ci.reset();

@@ -83,12 +83,10 @@ ReportPart goals_part(const Report& report) {
                   {head_of(report, {"inside", "goals", "saved", "not known", "goals a minute"})},
                   {}};
   for (const PolicyRow& row : report.policies) {
-    const SaidOfInside& saved = row.inside_kicks.saved;
     std::vector<std::string>& cells = part.table.emplace_back(who_of(report, row));
-    for (const std::int64_t n : {row.inside(), row.goals(), saved.observed_yes, row.inside() - saved.observed})
+    for (const std::int64_t n : {row.inside(), row.goals(), row.saved(), row.goal_not_known()})
       cells.push_back(shown(n));
-    const bool played = row.played_min && *row.played_min > 0.0;
-    cells.push_back(shown(played ? std::optional(static_cast<double>(row.goals()) / *row.played_min) : std::nullopt));
+    cells.push_back(shown(row.per_min(row.goals())));
   }
   return part;
 }

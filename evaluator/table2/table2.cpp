@@ -154,24 +154,6 @@ void warn_of_replays(Report& report) {
 
 }  // namespace
 
-std::int64_t PolicyRow::kicks() const {
-  std::int64_t sum = 0;
-  for (const auto& [outcome, n] : kicks_by_outcome) sum += n;
-  return sum;
-}
-
-std::int64_t PolicyRow::of(const std::string& outcome) const {
-  const auto found = kicks_by_outcome.find(outcome);
-  return found == kicks_by_outcome.end() ? 0 : found->second;
-}
-
-stats::Interval PolicyRow::efficiency_bounds() const { return stats::efficiency_bounds({counts(), unknown(), doubt}); }
-
-std::optional<double> PolicyRow::kicks_per_min() const {
-  if (!played_min || *played_min <= 0.0) return std::nullopt;
-  return static_cast<double>(kicks()) / *played_min;
-}
-
 std::int64_t Report::rows_missing() const {
   std::int64_t sum = 0;
   for (const log::Loss& loss : losses) sum += loss.missing();

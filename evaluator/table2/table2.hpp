@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "evaluator/counting/arms.hpp"
-#include "evaluator/counting/inside_kicks.hpp"
+#include "evaluator/counting/kick_counts.hpp"
 #include "evaluator/counting/log_opportunities.hpp"
 #include "evaluator/render/gate.hpp"
 #include "evaluator/sessions/hand_labels.hpp"
@@ -28,37 +28,14 @@ namespace trivela::evaluator {
 inline const std::vector<std::string> kMisses = {"wide_left", "wide_right", "over", "short", "post", "bar", "blocked"};
 
 /// One row of Table 2: the kicks of a policy, of an experiment those of an arm with it.
-struct PolicyRow {
+struct PolicyRow : KickCounts {
   std::string arm;  ///< Arm::name; empty: none
   std::string policy;
-  std::map<std::string, std::int64_t> kicks_by_outcome;
-  stats::LabelDoubt doubt;  ///< of the labels; 0 where the log does not say
-  InsideKicks inside_kicks;
-  bool blocked_apart = false;        ///< blocked kicks are neither inside nor outside
-  std::optional<double> played_min;  ///< minutes of play in the possessions in which it had the ball; none: not known
-  std::int64_t repeated = 0;         ///< kicks in situations that it had in an earlier, paired half
+  std::int64_t repeated = 0;                 ///< kicks in situations that it had in an earlier, paired half
   std::optional<stats::Interval> paired_ci;  ///< of the efficiency, where some are repeated; none: Wilson's holds
-
-  std::int64_t kicks() const;
-  std::int64_t of(const std::string& outcome) const;
-  std::int64_t inside() const { return of("on_target"); }
-  std::int64_t unknown() const { return of("unknown"); }
-  std::int64_t blocked() const { return of("blocked"); }
-  std::int64_t outside() const { return kicks() - inside() - unknown() - (blocked_apart ? blocked() : 0); }
-
-  /// Inside, and known that no keeper stopped them.
-  std::int64_t goals() const { return inside_kicks.saved.observed - inside_kicks.saved.observed_yes; }
-
-  /// Inside of the kicks whose outcome is known.
-  stats::Counts counts() const { return {inside(), inside() + outside()}; }
-
-  /// Efficiency if every unknown outcome was outside and as many labels as may be are wrong, and the reverse.
-  stats::Interval efficiency_bounds() const;
 
   /// Of the efficiency, 95 %: Wilson's, by situations where paired halves repeat some.
   stats::Interval efficiency_ci() const { return paired_ci.value_or(stats::wilson(counts())); }
-
-  std::optional<double> kicks_per_min() const;
 };
 
 /// The kicks of a robot with a policy.

@@ -71,7 +71,7 @@ TEST_F(ComparedAlike, TablesAreComparedUnderThePoliciesThatBothHad) {
   EXPECT_EQ(result.pairs[0].pairs->n(), 60);
   EXPECT_NEAR(result.pairs[0].headline->difference, 0.1, 1e-12) << "moving had the new table alone";
   EXPECT_EQ(result.groups[1].opportunities, 60);
-  EXPECT_NEAR(*result.groups[1].minutes, 60.0, 1e-9);
+  EXPECT_NEAR(*result.groups[1].played_min, 60.0, 1e-9);
   EXPECT_THAT(result.dataset.remarks,
               Contains(HasSubstr("60 opportunities of 'new' left out: their policy or settings")));
 }
@@ -114,7 +114,7 @@ TEST_F(ComparedAlike, AMatchThatWasPlayedAgainCountsOnce) {
   write("b.db", {{.name = "moving", .policy = "moving"}}, "with other flags");
   const auto result = compared({.by = "arm"}, {"a.db", "b.db"});
   EXPECT_EQ(result.groups[1].opportunities, 60);
-  EXPECT_NEAR(*result.groups[1].minutes, 60.0, 1e-9);
+  EXPECT_NEAR(*result.groups[1].played_min, 60.0, 1e-9);
   EXPECT_THAT(result.dataset.remarks, Contains(HasSubstr("6 of its matches were played before with the same seed")));
 }
 

@@ -77,9 +77,9 @@ void write_saves(const std::filesystem::path& path) {
 TEST_F(PolicyComparisonTest, GoalsAreCountedPastTheKeeperBesideWhatIsInside) {
   write_saves(path());
   const auto result = compared();
-  EXPECT_EQ(result.groups[0].inside, 60);
-  EXPECT_EQ(result.groups[0].goals, 12);
-  EXPECT_EQ(result.groups[1].goals, 42);
+  EXPECT_EQ(result.groups[0].inside(), 60);
+  EXPECT_EQ(result.groups[0].goals(), 12);
+  EXPECT_EQ(result.groups[1].goals(), 42);
   const PairResult& pair = result.pairs[0];
   EXPECT_NEAR(pair.headline->difference, 0.0, 1e-12) << "Table 2 sees no keeper";
   ASSERT_TRUE(pair.goals);
@@ -114,13 +114,13 @@ TEST_F(PolicyComparisonTest, BlockedKicksAreOutsideUnlessTheyStandApart) {
   }
   experiment.finish();
   const auto outside = compared();
-  EXPECT_EQ(outside.groups[0].outside, 30);
+  EXPECT_EQ(outside.groups[0].outside(), 30);
   EXPECT_EQ(outside.groups[0].kicks(), 60);
   EXPECT_NEAR(outside.pairs[0].efficiency->difference, 0.0, 1e-12);
   EXPECT_THAT(to_text(outside), Not(HasSubstr("stand apart")));
   const auto apart = compared({.blocked_apart = true});
-  EXPECT_EQ(apart.groups[0].blocked, 24);
-  EXPECT_EQ(apart.groups[0].outside, 6);
+  EXPECT_EQ(apart.groups[0].blocked(), 24);
+  EXPECT_EQ(apart.groups[0].outside(), 6);
   EXPECT_EQ(apart.groups[0].kicks(), 60);
   EXPECT_NEAR(apart.pairs[0].efficiency->difference, 30.0 / 54.0 - 30.0 / 36.0, 1e-12);
   EXPECT_NEAR(apart.pairs[0].per_opportunity->difference, 0.0, 1e-12) << "an opportunity stays one";
@@ -143,7 +143,7 @@ TEST_F(PolicyComparisonTest, ArmsOnTheSameOpportunitiesArePaired) {
   EXPECT_NEAR(pair.headline->difference, 0.7 - 0.45, 1e-12);
   EXPECT_TRUE(pair.headline->by_match);
   EXPECT_TRUE(pair.headline->of_opportunities);
-  EXPECT_NEAR(*result.groups[0].minutes, 100.0, 1e-9);
+  EXPECT_NEAR(*result.groups[0].played_min, 100.0, 1e-9);
   EXPECT_NEAR(pair.kick_rate->value, 100.0 / 60.0, 1e-12);
   EXPECT_EQ(result.groups[0].kicks(), 60);
   EXPECT_EQ(result.groups[0].opportunities, 100);
@@ -194,10 +194,10 @@ TEST_F(PolicyComparisonTest, TruthAndObservationAreChosen) {
   experiment.commit();
   experiment.finish();
   const auto observed = compared(), truth = compared({.truth = true});
-  EXPECT_EQ(observed.groups[0].inside, 1);
-  EXPECT_EQ(observed.groups[0].unknown, 2);
-  EXPECT_EQ(truth.groups[0].inside, 2);
-  EXPECT_EQ(truth.groups[0].unknown, 0);
+  EXPECT_EQ(observed.groups[0].inside(), 1);
+  EXPECT_EQ(observed.groups[0].unknown(), 2);
+  EXPECT_EQ(truth.groups[0].inside(), 2);
+  EXPECT_EQ(truth.groups[0].unknown(), 0);
   EXPECT_EQ(observed.pairs[0].pairs->n(), 3)
       << "an opportunity with an unknown outcome is one without a shot on target";
   EXPECT_NEAR(observed.pairs[0].bounds.hi, 2.0 / 3.0, 1e-12) << "and bounded by what it may have been";
@@ -225,7 +225,7 @@ TEST_F(PolicyComparisonTest, PoliciesDrawnAtRandomAreRandomisedAndTheirSharesChe
   EXPECT_EQ(result.pairs[0].design, Design::kRandomised);
   EXPECT_GT(*result.sample_ratio_p, 0.001);
   EXPECT_THAT(to_text(result), HasSubstr("because of the policy: it was drawn at random"));
-  EXPECT_FALSE(result.groups[0].minutes) << "the minutes of a half are nobody's alone";
+  EXPECT_FALSE(result.groups[0].played_min) << "the minutes of a half are nobody's alone";
   write("odd.db", 0.5);
   EXPECT_LT(*compared({}, {"odd.db"}).sample_ratio_p, 0.001);
   EXPECT_THAT(to_text(compared({}, {"odd.db"})), HasSubstr("did not go as planned"));
@@ -288,8 +288,8 @@ TEST_F(PolicyComparisonTest, ARecordedMatchOfKicksAloneIsComparedByItsKicks) {
   }
   const auto result = compared();
   EXPECT_EQ(result.groups[0].name, "stopped");
-  EXPECT_EQ(result.groups[0].inside, 34);
-  EXPECT_EQ(result.groups[0].outside, 31);
+  EXPECT_EQ(result.groups[0].inside(), 34);
+  EXPECT_EQ(result.groups[0].outside(), 31);
   EXPECT_EQ(result.groups[1].kicks(), 132) << "a refused order is no kick";
   EXPECT_EQ(result.groups[0].opportunities, 0);
   EXPECT_NEAR(result.pairs[0].headline->ci.lo, 0.0931659315, 1e-9);
@@ -351,8 +351,8 @@ class RulesOfGoals : public PolicyComparisonTest {
     match.close();
     for (const bool truth : {false, true}) {
       const auto result = compared({.truth = truth});
-      EXPECT_EQ(result.groups[0].inside, 6) << truth;
-      EXPECT_EQ(result.groups[1].inside, 10) << truth;
+      EXPECT_EQ(result.groups[0].inside(), 6) << truth;
+      EXPECT_EQ(result.groups[1].inside(), 10) << truth;
       EXPECT_THAT(to_text(result), HasSubstr("4 kicks on target " + said + " are outside")) << truth;
     }
   }

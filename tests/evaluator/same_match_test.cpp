@@ -58,8 +58,8 @@ TEST_F(OnePlay, TwoRecordersOfOneMatchGiveTheNumbersOfOne) {
   write("one.db", recording(), write_table2);
   write("two.db", recording(), write_table2);
   const auto one = compared({"one.db"}), both = compared({"one.db", "two.db"});
-  EXPECT_EQ(both.groups[0].inside, 34);
-  EXPECT_EQ(both.groups[1].outside, 32);
+  EXPECT_EQ(both.groups[0].inside(), 34);
+  EXPECT_EQ(both.groups[1].outside(), 32);
   EXPECT_EQ(both.groups[0].matches, 1u);
   EXPECT_EQ(both.pairs[0].headline->ci.lo, one.pairs[0].headline->ci.lo);
   EXPECT_EQ(both.pairs[0].headline->ci.hi, one.pairs[0].headline->ci.hi);
@@ -142,7 +142,7 @@ TEST_F(OnePlay, AReplayIsLeftOutAndShownAlone) {
   replay.replays_uuid = "11111111-2222-4333-8444-555555555555";
   write("again.db", replay, [](MatchLog& match) { match.kicks(2, "over", 40); });
   const auto both = compared({"match.db", "again.db"});
-  EXPECT_EQ(both.groups[1].outside, 32);
+  EXPECT_EQ(both.groups[1].outside(), 32);
   EXPECT_THAT(both.dataset.remarks, Contains(HasSubstr("again.db: 1 of its sessions replays another one")));
   const Report alone = make_report(log::Reader(path("again.db")));
   EXPECT_EQ(alone.policies[1].kicks() + alone.policies[0].kicks(), 40);

@@ -1,0 +1,105 @@
+#include "evaluator/counting/kick_counts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace trivela::evaluator {
+namespace {
+
+std::string line(std::span<const NamedInside> groups, const char* what, SaidOfInside InsideKicks::*said, bool truth) {
+  std::vector<std::string> parts;
+  for (const NamedInside& group : groups) {
+    const SaidOfInside& of = group.inside.*said;
+    if ((truth ? of.truth : of.observed) == 0) continue;
+    parts.push_back(
+        fmt::format("{} {} of {}", group.name, truth ? of.truth_yes : of.observed_yes, truth ? of.truth : of.observed));
+  }
+  if (parts.empty()) return "";
+  return fmt::format("  {}, of those inside, {}: {}\n", what, truth ? "by the simulator's truth" : "as observed",
+                     fmt::join(parts, ", "));
+}
+
+Json share(std::int64_t yes, std::int64_t of, const char* what) {
+  return of > 0 ? Json{{what, yes}, {"of", of}} : Json();
+}
+
+// As view labelled_kicks calls it.
+const char* label_of(Ending ending) {
+  return ending == Ending::kInside    ? "on_target"
+         : ending == Ending::kOutside ? "outside"
+         : ending == Ending::kBlocked ? "blocked"
+                                      : "unknown";
+}
+
+}  // namespace
+
+SaidOfInside& SaidOfInside::operator+=(const SaidOfInside& other) {
+  observed += other.observed;
+  observed_yes += other.observed_yes;
+  truth += other.truth;
+  truth_yes += other.truth_yes;
+  return *this;
+}
+
+void KickCounts::add(const Opportunity& o) {
+  if (o.ending == Ending::kNoKick) return;
+  ++kicks_by_outcome[label_of(o.ending)];
+  doubt += {o.ending == Ending::kInside ? o.doubt : 0.0, o.ending == Ending::kOutside ? o.doubt : 0.0};
+  if (o.ending != Ending::kInside) return;
+  inside_kicks.bounced.add(o.bounced, o.truth_bounced);
+  inside_kicks.saved.add(o.observed_saved, o.truth_saved);
+}
+
+KickCounts& KickCounts::operator+=(const KickCounts& other) {
+  for (const auto& [outcome, n] : other.kicks_by_outcome) kicks_by_outcome[outcome] += n;
+  doubt += other.doubt;
+  inside_kicks.bounced += other.inside_kicks.bounced;
+  inside_kicks.saved += other.inside_kicks.saved;
+  inside_kicks.by_people += other.inside_kicks.by_people;
+  if (other.played_min) played_min = played_min.value_or(0.0) + *other.played_min;
+  return *this;
+}
+
+std::int64_t KickCounts::kicks() const {
+  std::int64_t sum = 0;
+  for (const auto& [outcome, n] : kicks_by_outcome) sum += n;
+  return sum;
+}
+
+std::int64_t KickCounts::of(const std::string& outcome) const {
+  const auto found = kicks_by_outcome.find(outcome);
+  return found == kicks_by_outcome.end() ? 0 : found->second;
+}
+
+std::int64_t KickCounts::saved() const {
+  return by_truth ? inside_kicks.saved.truth_yes : inside_kicks.saved.observed_yes;
+}
+
+std::int64_t KickCounts::goal_not_known() const {
+  return inside() - (by_truth ? inside_kicks.saved.truth : inside_kicks.saved.observed);
+}
+
+std::optional<double> KickCounts::per_min(std::int64_t n) const {
+  if (!played_min || *played_min <= 0.0) return std::nullopt;
+  return static_cast<double>(n) / *played_min;
+}
+
+std::string inside_lines(std::span<const NamedInside> groups) {
+  constexpr const char* kBounced = "bounced before the line";
+  std::string text =
+      line(groups, kBounced, &InsideKicks::bounced, false) + line(groups, kBounced, &InsideKicks::bounced, true);
+  if (std::ranges::none_of(groups, [](const NamedInside& group) { return group.inside.saved.any(); })) return text;
+  constexpr const char* kSaved = "saved by a keeper";
+  text += line(groups, kSaved, &InsideKicks::saved, false);
+  return text + line(groups, kSaved, &InsideKicks::saved, true);
+}
+
+Json said_json(const SaidOfInside& said, const char* what) {
+  return {{"observed", share(said.observed_yes, said.observed, what)},
+          {"truth", share(said.truth_yes, said.truth, what)}};
+}
+
+}  // namespace trivela::evaluator
