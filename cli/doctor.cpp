@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/options/open_file.hpp"
+#include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
 #include "cli/team/valid_team.hpp"
 #include "cli/verbs.hpp"

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <poll.h>
 
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -10,7 +8,7 @@
 
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/options/match_mode.hpp"
-#include "cli/options/open_file.hpp"
+#include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/settings.hpp"
@@ -38,11 +36,6 @@ struct LabelArguments {
   int port = 0;
   std::string config = config::shipped("default.toml").string();
 };
-
-std::int64_t now_utc_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 std::vector<NamedKick> counted_kicks(const std::string& log) {
   log::Reader reader(log);
@@ -83,7 +76,7 @@ int add_one(const LabelArguments& arguments) {
                    .who = arguments.who,
                    .note = arguments.note};
   if (!arguments.withdraw) label.outcome = arguments.outcome;
-  log::Additions(arguments.log).add(label, now_utc_ns());
+  log::Additions(arguments.log).add(label, log::utc_now_ns());
   const std::string observed = kick.observed.empty() ? "nothing" : evaluator::words(kick.observed);
   say(arguments.withdraw
           ? fmt::format("{}: {} by {} is withdrawn; the observer says {}, and that holds\n", text_of(kick),
@@ -102,8 +95,7 @@ int serve(const LabelArguments& arguments) {
   const pages::LabelServer server(desk, arguments.port);
   say(server.url() + '\n');
   std::fflush(stdout);
-  pollfd inbox{signals.file_descriptor(), POLLIN, 0};
-  while (!signals.stop_requested()) poll(&inbox, 1, -1);
+  while (!signals.stop_requested_within(-1)) continue;
   return kDone;
 }
 

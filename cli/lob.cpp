@@ -1,6 +1,5 @@
 #include <fmt/chrono.h>
 #include <fmt/core.h>
-#include <poll.h>
 #include <CLI/CLI.hpp>
 
 #include <chrono>
@@ -13,8 +12,7 @@
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/lob_points.hpp"
 #include "cli/options/match_mode.hpp"
-#include "cli/options/open_file.hpp"
-#include "cli/scan/mount_flags.hpp"
+#include "cli/options/number_checks.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
@@ -106,11 +104,9 @@ int serve_lobs(const PageFlags& flags, const kicking::lob::LaserMount& mount,
     const pages::PageServer server(pages::lob_page(*scene), broadcast, address);
     fmt::print("{}\n", server.url());
     std::fflush(stdout);
-    pollfd inbox{signals.file_descriptor(), POLLIN, 0};
-    while (!signals.stop_requested()) {
+    do {
       scene->check();
-      poll(&inbox, 1, kCheck_ms);
-    }
+    } while (!signals.stop_requested_within(kCheck_ms));
   }  // the server ends first: a verdict that was answered is in the record
   scene->finish();
   return kDone;

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "cli/kick/csv_rows.hpp"
-#include "cli/options/open_file.hpp"
+#include "cli/options/number_checks.hpp"
 #include "evaluator/render/lob_json.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"

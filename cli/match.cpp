@@ -20,7 +20,6 @@
 #include "config/field.hpp"
 #include "config/robot.hpp"
 #include "config/scenario/scenario.hpp"
-#include "config/scenario/scenario_field.hpp"
 #include "config/settings.hpp"
 #include "config/text/error.hpp"
 #include "config/text/installation.hpp"

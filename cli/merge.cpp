@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/launch/stoppable_bar.hpp"
+#include "cli/launch/progress_bar.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/sessions/merge_report.hpp"
 #include "log/file/log_file.hpp"
-#include "log/file/stoppable.hpp"
+#include "log/file/new_file.hpp"
 #include "log/merge/merge.hpp"
 #include "log/shards/shard_merge.hpp"
 

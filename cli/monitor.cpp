@@ -1,11 +1,10 @@
-#include <poll.h>
 
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "cli/launch/signal_inbox.hpp"
-#include "cli/options/open_file.hpp"
+#include "cli/options/number_checks.hpp"
 #include "cli/team/valid_team.hpp"
 #include "cli/verbs.hpp"
 #include "cli/watch/watch_page.hpp"
@@ -44,7 +43,7 @@ int serve_monitor(const MonitorFlags& flags) {
   if (!flags.dds.empty()) settings.domain.dds_file = flags.dds;
   SignalInbox signals;  // before all threads, which must not take them
   const WatchPage page{flags.watch, settings, flags.keys, std::move(scene)};
-  for (pollfd inbox{signals.file_descriptor(), POLLIN, 0}; !signals.stop_requested();) poll(&inbox, 1, -1);
+  while (!signals.stop_requested_within(-1)) continue;
   return kDone;
 }
 

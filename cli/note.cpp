@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -80,7 +79,7 @@ Meant sessions_meant(const NoteArguments& arguments) {
 int add_notes(const NoteArguments& arguments, std::vector<log::Note> notes) {
   const Meant meant = sessions_meant(arguments);
   log::Additions additions(arguments.log);
-  const auto now_utc_ns = std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
+  const std::int64_t now_utc_ns = log::utc_now_ns();
   std::set<std::int64_t> noted;
   for (log::Note& note : notes) {
     for (const std::int64_t session_id : meant.all) {

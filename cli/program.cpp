@@ -30,7 +30,7 @@ namespace {
 
 /// Lets every number with a fraction that `verb` and its subcommands take be finite: CLI11 reads "nan" and "inf", and
 /// its ranges let NaN through. Call it when all flags are there.
-inline void require_finite_numbers(CLI::App& verb) {
+void require_finite_numbers(CLI::App& verb) {
   const auto problem = [](const std::string& text) -> std::string {
     const auto value = config::parse_number(text);
     return value && !std::isfinite(*value) ? text + " is not a finite number" : "";

@@ -6,11 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/options/open_file.hpp"
+#include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/counting/metrics.hpp"
-#include "evaluator/render/escaped_text.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "log/read/reader.hpp"
 

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,7 +12,7 @@
 
 #include "cli/launch/config_file.hpp"
 #include "cli/launch/log_claim.hpp"
-#include "cli/launch/stoppable_bar.hpp"
+#include "cli/launch/progress_bar.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/text/installation.hpp"
@@ -262,7 +261,7 @@ int replay(const ReplayFlags& flags) {
                 .kind = "note",
                 .text = fmt::format("Decided again, open loop: {}", fmt::join(replayed.lines, "; ")),
                 .who = "trivela replay"},
-      std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count());
+      log::utc_now_ns());
   say(fmt::format("{}\n{}", fmt::join(replayed.lines, "\n"), beside_text(reader, flags)));
   if (replayed.stopped) warn(fmt::format("stopped: {} holds what was decided so far", flags.out));
   return replayed.stopped || log.stats().rows_missing > 0 ? kDoneWithLoss : kDone;

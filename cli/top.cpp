@@ -11,7 +11,6 @@
 #include "bus/stop.hpp"
 #include "cli/launch/terminal.hpp"
 #include "cli/options/number_checks.hpp"
-#include "cli/options/open_file.hpp"
 #include "cli/options/output.hpp"
 #include "cli/team/valid_team.hpp"
 #include "cli/top/live_bus.hpp"

@@ -9,7 +9,6 @@
 #include "evaluator/stats/confidence_sequence.hpp"
 #include "evaluator/stats/counts/exact.hpp"
 #include "evaluator/stats/counts/interval.hpp"
-#include "evaluator/stats/counts/robustness.hpp"
 #include "evaluator/stats/paired.hpp"
 #include "evaluator/stats/poisson.hpp"
 #include "evaluator/stats/test_plan.hpp"

@@ -10,7 +10,6 @@
 
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "calibration/rows/number_table.hpp"
-#include "calibration/rows/verdicts_file.hpp"
 #include "config/text/error.hpp"
 #include "config/text/open_file.hpp"
 #include "log/write/scan_log.hpp"

@@ -12,7 +12,6 @@
 #include "cli/options/output.hpp"
 #include "config/field.hpp"
 #include "config/scenario/scenario.hpp"
-#include "config/scenario/scenario_field.hpp"
 #include "experiment/calibration/drive_in_process.hpp"
 #include "log/write/scan_log.hpp"
 

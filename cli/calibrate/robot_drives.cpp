@@ -22,7 +22,6 @@
 #include "cli/hardware/device_locks.hpp"
 #include "cli/launch/child_process.hpp"
 #include "cli/launch/config_file.hpp"
-#include "cli/launch/node_program.hpp"
 #include "cli/launch/record_match.hpp"
 #include "cli/options/output.hpp"
 #include "config/settings.hpp"

@@ -9,7 +9,7 @@
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/run_flags.hpp"
 #include "cli/calibrate/run_report.hpp"
-#include "cli/options/open_file.hpp"
+#include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/scenario/scenario.hpp"

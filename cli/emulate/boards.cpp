@@ -1,5 +1,4 @@
 #include <fmt/core.h>
-#include <poll.h>
 
 #include <algorithm>
 #include <charconv>
@@ -81,12 +80,11 @@ template <class Emulator, class Look>
 int watch_until_stopped(SignalInbox& signals, Emulator& emulator, int unplug_s, Look look) {
   say(emulator.address() + "\n");
   CableFault cable{emulator.line(), unplug_s};
-  pollfd inbox{signals.file_descriptor(), POLLIN, 0};
-  for (; !signals.stop_requested(); poll(&inbox, 1, 100)) {
+  do {
     cable.move();
     emulator.with_board(std::ref(look));  // a copy would forget what it has said
     std::fflush(stdout);
-  }
+  } while (!signals.stop_requested_within(100));
   return kDone;
 }
 

@@ -11,7 +11,6 @@
 #include "cli/emulate/devices.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/options/number_checks.hpp"
-#include "cli/options/open_file.hpp"
 #include "cli/options/output.hpp"
 #include "emulators/refbox/box_keys.hpp"
 #include "emulators/refbox/box_script.hpp"

@@ -25,47 +25,38 @@ std::string backend_text(const Backend& backend) {
     return config::text_of(backend);
 }
 
-class HeldByANode final : public DeviceProbe {
+/// One that is not opened: somebody else has it, or nobody wants it.
+class Unopened final : public DeviceProbe {
  public:
-  HeldByANode(const std::string& name, const std::string& device, const std::string& node)
-      : DeviceProbe(name, device), says_(node + " or another trivela hardware has it") {}
-  bool opened() const override { return false; }
-  bool found() override { return true; }
-  std::string says() const override { return says_; }
-  void look() override {}
-  std::string values() override { return "not opened"; }
-
- private:
-  std::string says_;
-};
-
-class NotWanted final : public DeviceProbe {
- public:
-  NotWanted(const std::string& name, std::string why) : DeviceProbe(name, "none"), why_(std::move(why)) {}
-  bool wanted() const override { return false; }
-  bool found() override { return false; }
+  Unopened(const std::string& name, const std::string& device, std::string why, bool is_wanted)
+      : DeviceProbe(name, device), why_(std::move(why)), wanted_(is_wanted) {}
+  bool wanted() const override { return wanted_; }
+  bool opened() const override { return !wanted_; }
+  bool found() override { return wanted_; }
   std::string says() const override { return why_; }
   void look() override {}
-  std::string values() override { return "-"; }
+  std::string values() override { return wanted_ ? "not opened" : "-"; }
 
  private:
   std::string why_;
+  bool wanted_;
 };
 
-class WheelsProbe final : public DeviceProbe {
+std::unique_ptr<DeviceProbe> not_wanted(const std::string& name, const std::string& why) {
+  return std::make_unique<Unopened>(name, "none", why, false);
+}
+
+/// One that gives samples, which `text_of` writes for a person.
+template <class Device, class Sample>
+class SampledProbe : public DeviceProbe {
  public:
-  WheelsProbe(std::unique_ptr<hal::Wheels> wheels, const std::string& device)
-      : DeviceProbe("wheels", device), wheels_(std::move(wheels)) {}
-  bool found() override { return wheels_->connected(std::chrono::nanoseconds{0}); }
-  std::string says() const override {
-    std::string status = wheels_->status();
-    if (!newest_) return status;
-    return fmt::format("{} wheels, {} gyro{}{}", newest_->wheel_count, newest_->gyro_radps ? "a" : "no",
-                       status.empty() ? "" : "; ", status);
-  }
+  SampledProbe(const std::string& name, std::unique_ptr<Device> opened, const std::string& device,
+               std::string (*text_of)(const Sample&))
+      : DeviceProbe(name, device), device_(std::move(opened)), text_of_(text_of) {}
+  bool found() override { return device_->connected(std::chrono::nanoseconds{0}); }
   void look() override {
     for (int i = 0; i < kMostOfALook; ++i) {
-      const auto sample = wheels_->read(std::chrono::nanoseconds{0});
+      const auto sample = device_->read(std::chrono::nanoseconds{0});
       if (!sample) return;
       newest_ = sample;
       rate_.count();
@@ -73,23 +64,37 @@ class WheelsProbe final : public DeviceProbe {
   }
   std::string values() override {
     const std::string rate = rate_.text();
-    return newest_ ? fmt::format("{}; {}", wheels_text(*newest_), rate) : "no sample";
+    return newest_ ? fmt::format("{}; {}", text_of_(*newest_), rate) : "no sample";
   }
 
+ protected:
+  std::unique_ptr<Device> device_;
+  std::optional<Sample> newest_;
+
  private:
-  std::unique_ptr<hal::Wheels> wheels_;
-  std::optional<hal::WheelSample> newest_;
+  std::string (*text_of_)(const Sample&);
   Rate rate_;
 };
 
-class KickerProbe final : public DeviceProbe {
+class WheelsProbe final : public SampledProbe<hal::Wheels, hal::WheelSample> {
+ public:
+  WheelsProbe(std::unique_ptr<hal::Wheels> wheels, const std::string& device)
+      : SampledProbe("wheels", std::move(wheels), device, wheels_text) {}
+  std::string says() const override {
+    std::string status = device_->status();
+    if (!newest_) return status;
+    return fmt::format("{} wheels, {} gyro{}{}", newest_->wheel_count, newest_->gyro_radps ? "a" : "no",
+                       status.empty() ? "" : "; ", status);
+  }
+};
+
+class KickerProbe final : public SampledProbe<hal::Kicker, hal::KickerSample> {
  public:
   KickerProbe(std::unique_ptr<hal::Kicker> kicker, const std::string& device)
-      : DeviceProbe("kicker", device), kicker_(std::move(kicker)) {}
-  bool found() override { return kicker_->connected(std::chrono::nanoseconds{0}); }
+      : SampledProbe("kicker", std::move(kicker), device, kicker_text) {}
   std::string says() const override {
-    const hal::KickerCapabilities can = kicker_->capabilities();
-    std::string text = kicker_->status();
+    const hal::KickerCapabilities can = device_->capabilities();
+    std::string text = device_->status();
     for (const auto& [is, what] :
          {std::pair{can.charge_control, "charging is controlled"}, std::pair{can.voltage, "volts are measured"},
           std::pair{can.discharge, "it can be discharged"}, std::pair{can.watchdog, "it has a watchdog"}}) {
@@ -97,23 +102,6 @@ class KickerProbe final : public DeviceProbe {
     }
     return text;
   }
-  void look() override {
-    for (int i = 0; i < kMostOfALook; ++i) {
-      const auto sample = kicker_->read(std::chrono::nanoseconds{0});
-      if (!sample) return;
-      newest_ = sample;
-      rate_.count();
-    }
-  }
-  std::string values() override {
-    const std::string rate = rate_.text();
-    return newest_ ? fmt::format("{}; {}", kicker_text(*newest_), rate) : "no sample";
-  }
-
- private:
-  std::unique_ptr<hal::Kicker> kicker_;
-  std::optional<hal::KickerSample> newest_;
-  Rate rate_;
 };
 
 class GyroProbe final : public DeviceProbe {
@@ -242,7 +230,7 @@ std::string wheels_text(const hal::WheelSample& sample) {
 }
 
 std::unique_ptr<DeviceProbe> held_by(const std::string& name, const std::string& device, const std::string& node) {
-  return std::make_unique<HeldByANode>(name, device, node);
+  return std::make_unique<Unopened>(name, device, node + " or another trivela hardware has it", true);
 }
 
 std::unique_ptr<DeviceProbe> wheels_probe(std::unique_ptr<hal::Wheels> wheels, const std::string& device) {
@@ -258,7 +246,7 @@ std::unique_ptr<DeviceProbe> gyro_probe(std::unique_ptr<hal::Gyro> gyro, const s
 }
 
 std::unique_ptr<DeviceProbe> range_finder_probe(const config::ScanRecorder& settings, const hal::Owner& owner) {
-  if (!settings.enabled) return std::make_unique<NotWanted>("range finder", "scan_recorder.enabled = false");
+  if (!settings.enabled) return not_wanted("range finder", "scan_recorder.enabled = false");
   return std::make_unique<RangeFinderProbe>(hal::open_range_finder(settings.device, owner),
                                             config::text_of(settings.device));
 }
@@ -266,7 +254,7 @@ std::unique_ptr<DeviceProbe> range_finder_probe(const config::ScanRecorder& sett
 bool is_wanted(const config::Refbox& settings) { return !settings.group.empty() || settings.letters; }
 
 std::unique_ptr<DeviceProbe> referee_box_probe(const config::Refbox& settings) {
-  if (!is_wanted(settings)) return std::make_unique<NotWanted>("referee box", "refbox.group is empty");
+  if (!is_wanted(settings)) return not_wanted("referee box", "refbox.group is empty");
   return std::make_unique<RefereeBoxProbe>(nodes::open_refbox(settings));
 }
 

@@ -1,7 +1,6 @@
 #include "cli/hardware/spin.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
 
 #include <chrono>
 #include <cmath>
@@ -107,9 +106,7 @@ int spin_wheel(const Spin& spin, hal::Wheels& wheels, const config::WheelBase& b
   auto heard = began;
   while (SpinClock::now() - began < lasts) {
     turn(spin, wheels, kinematics);
-    pollfd inbox{signals.file_descriptor(), POLLIN, 0};
-    ::poll(&inbox, 1, static_cast<int>(kCommandPeriod.count()));
-    if (signals.stop_requested()) {
+    if (signals.stop_requested_within(static_cast<int>(kCommandPeriod.count()))) {
       warn("stopped: the wheels get the command to stand");
       return kFailed;
     }

@@ -1,7 +1,6 @@
 #include "cli/hardware/watching.hpp"
 
 #include <fmt/core.h>
-#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -45,9 +44,7 @@ bool look_until(DeviceProbes& probes, WatchClock::time_point end, SignalInbox& s
       fixture->look();
       heard.note(*fixture);
     }
-    pollfd inbox{signals.file_descriptor(), POLLIN, 0};
-    ::poll(&inbox, 1, static_cast<int>(kPollInterval.count()));
-    if (signals.stop_requested()) return false;
+    if (signals.stop_requested_within(static_cast<int>(kPollInterval.count()))) return false;
   } while (WatchClock::now() < end);
   return true;
 }

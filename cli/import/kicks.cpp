@@ -10,7 +10,7 @@
 
 #include "cli/import/kick_labels.hpp"
 #include "cli/import/row_writing.hpp"
-#include "cli/options/open_file.hpp"
+#include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "idl/none.hpp"

@@ -5,7 +5,6 @@
 
 #include "evaluator/imports/box_files.hpp"
 #include "evaluator/imports/play_statistics.hpp"
-#include "evaluator/imports/possessions.hpp"
 
 namespace trivela::cli {
 

@@ -10,7 +10,10 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace trivela::cli {
@@ -32,6 +35,13 @@ constexpr std::chrono::seconds kGrace{5};
   argv.push_back(nullptr);
   execv(program.c_str(), argv.data());
   _exit(127);
+}
+
+namespace fs = std::filesystem;
+
+std::set<std::string, std::less<>>& played_by_this_program() {
+  static std::set<std::string, std::less<>> nodes;
+  return nodes;
 }
 
 }  // namespace
@@ -91,5 +101,22 @@ bool ChildProcess::wait(std::chrono::milliseconds timeout) {
   if (!ended()) poll(&handle, 1, static_cast<int>(timeout.count()));
   return ended();
 }
+
+NodeProgram node_program(const std::string& node) {
+  const fs::path self = fs::read_symlink("/proc/self/exe");
+  if (played_by_this_program().contains(node)) return {self, {node}};
+  const std::string name = "trivela-" + node;
+  const fs::path beside = self.parent_path() / name;
+  const char* const path = std::getenv("PATH");
+  if (fs::exists(beside) || path == nullptr) return {beside, {}};
+  std::istringstream folders{path};
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path found = fs::path{folder} / name;
+    if (found.is_absolute() && access(found.c_str(), X_OK) == 0) return {found, {}};
+  }
+  return {beside, {}};
+}
+
+void play_by_this_program(std::string_view node) { played_by_this_program().emplace(node); }
 
 }  // namespace trivela::cli

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "cli/launch/child_process.hpp"
-#include "cli/launch/node_program.hpp"
 #include "cli/launch/progress_bar.hpp"
 #include "cli/launch/progress_pipe.hpp"
 

@@ -1,7 +1,6 @@
 #include "cli/launch/record_match.hpp"
 
 #include <fmt/core.h>
-#include <poll.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -42,7 +41,7 @@ class MatchWatch {
     page_->note_over();
     say("the match is over; its page stays until Ctrl-C\n");
     std::fflush(stdout);
-    for (pollfd inbox{signals.file_descriptor(), POLLIN, 0}; !signals.stop_requested();) poll(&inbox, 1, -1);
+    while (!signals.stop_requested_within(-1)) continue;
   }
 
  private:

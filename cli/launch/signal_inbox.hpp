@@ -1,5 +1,6 @@
 #pragma once
 
+#include <poll.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
@@ -32,6 +33,13 @@ class SignalInbox {
   }
 
   int file_descriptor() const { return descriptor_; }
+
+  /// Waits for a signal, so long at most; -1: for ever. True if somebody asked to stop.
+  bool stop_requested_within(int timeout_ms) {
+    pollfd inbox{descriptor_, POLLIN, 0};
+    poll(&inbox, 1, timeout_ms);
+    return stop_requested();
+  }
 
   /// Empties the inbox; true if somebody asked to stop.
   bool stop_requested() {

@@ -1,9 +1,12 @@
 #include "cli/manual/manual.hpp"
+#include "nodes/runtime/node_flags.hpp"
 
+#include <fmt/core.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <functional>
+#include <string>
 
 namespace trivela::cli {
 namespace {
@@ -91,6 +94,13 @@ std::string fish_lines(const ManualVerb& verb, const std::string& said) {
   return lines;
 }
 
+std::string page_of_nodes() {
+  CLI::App node{"Trivela's nodes", "trivela-NODE"};
+  nodes::NodeFlags flags;
+  nodes::add_node_flags(node, flags);
+  return nodes_man_page(CLI::detail::split(TRIVELA_NODE_NAMES, ','), verb_tree(node));
+}
+
 }  // namespace
 
 std::string bash_completion(const ManualVerb& program) {
@@ -104,6 +114,22 @@ std::string zsh_completion(const ManualVerb& program) {
 
 std::string fish_completion(const ManualVerb& program) {
   return "# fish completion for trivela, made by `trivela --completion fish`\n" + fish_lines(program, "");
+}
+
+void add_manual_flags(CLI::App& app) {
+  const auto man = [&app](const std::string& page) {
+    fmt::print("{}", page == "nodes" ? page_of_nodes() : man_page(verb_tree(app)));
+    throw CLI::Success{};
+  };
+  app.add_option_function<std::string>("--man", man, "The manual page of the verbs or of the nodes, for man -l -")
+      ->check(CLI::IsMember{{"verbs", "nodes"}});
+  const auto completion = [&app](const std::string& shell) {
+    const auto make = shell == "bash" ? bash_completion : shell == "zsh" ? zsh_completion : fish_completion;
+    fmt::print("{}", make(verb_tree(app)));
+    throw CLI::Success{};
+  };
+  app.add_option_function<std::string>("--completion", completion, "What a shell completes: its script")
+      ->check(CLI::IsMember{{"bash", "zsh", "fish"}});
 }
 
 }  // namespace trivela::cli

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <stdexcept>
 #include <string>
 
+#include "config/text/open_file.hpp"
 #include "config/text/parse_number.hpp"
 
 namespace trivela::cli {
@@ -34,5 +36,18 @@ inline NumberCheck above_zero() {
 
 /// What every seed of this program must lie in: it is kept as a double where it meets a configuration.
 inline CLI::Range seeds() { return {std::uint64_t{0}, std::uint64_t{9'000'000'000'000'000}}; }
+
+using config::open_file;
+
+/// What config::open_file() can open, as a flag's check. A file that cannot be read is no bad usage: it throws
+/// std::runtime_error, as whoever reads the file later would.
+inline CLI::Validator readable_file() {
+  return {[](const std::string& file) -> std::string {
+            const std::string why = config::why_unreadable(file);
+            if (!why.empty()) throw std::runtime_error{fmt::format("cannot read {}: {}", file, why)};
+            return {};
+          },
+          "FILE"};
+}
 
 }  // namespace trivela::cli

@@ -1,6 +1,6 @@
 #include "cli/options/world.hpp"
 
-#include "cli/options/open_file.hpp"
+#include "cli/options/number_checks.hpp"
 #include "config/scenario/scenario.hpp"
 
 namespace trivela::cli {

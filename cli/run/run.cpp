@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <trivela/program.hpp>
-#include "cli/launch/node_program.hpp"
+#include "cli/launch/child_process.hpp"
 #include "cli/run/verbs.hpp"
 
 namespace trivela::nodes {

@@ -1,5 +1,4 @@
 #include <fmt/core.h>
-#include <poll.h>
 
 #include <atomic>
 #include <cmath>
@@ -85,8 +84,7 @@ int emulate_scanner(const EmulateFlags& flags, const SyntheticFlags& synthetic, 
   if (playback.session().simulated) fmt::print(stderr, "{}\n", kSyntheticNotice);
   fmt::print("{}\n", emulator.address());
   std::fflush(stdout);
-  pollfd inbox{signals.file_descriptor(), POLLIN, 0};
-  while (!signals.stop_requested() && !failed) poll(&inbox, 1, 200);
+  while (!failed && !signals.stop_requested_within(200)) continue;
   return failed ? kFailed : kDone;
 }
 

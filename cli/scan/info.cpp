@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 #include "calibration/rows/lobs_of_scans.hpp"
-#include "calibration/rows/verdicts_file.hpp"
 #include "cli/options/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/options/open_file.hpp"
+#include "cli/options/number_checks.hpp"
 #include "cli/study/study_run.hpp"
 #include "config/text/installation.hpp"
 #include "experiment/study/factorial_report.hpp"

@@ -6,7 +6,6 @@
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/launch/progress_bar.hpp"
 #include "cli/options/number_checks.hpp"
-#include "cli/options/open_file.hpp"
 #include "cli/options/output.hpp"
 #include "cli/study/study.hpp"
 #include "config/learned_model.hpp"

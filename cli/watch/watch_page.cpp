@@ -7,7 +7,7 @@
 #include "cli/options/output.hpp"
 #include "config/robot.hpp"
 #include "nodes/runtime/node_main.hpp"
-#include "pages/serve/token.hpp"
+#include "pages/serve/site.hpp"
 
 namespace trivela::cli {
 namespace {

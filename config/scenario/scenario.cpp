@@ -2,13 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "config/field.hpp"
 #include "config/text/toml_source.hpp"
 #include "config/text/toml_text.hpp"
 #include "sim/scenario_fields.hpp"
 
 namespace trivela::config {
-
 namespace {
 
 /// Takes field and rules from the file that field_file names, if any, and the key out of the source.
@@ -28,6 +29,20 @@ void take_field_file(TomlSource& source, const std::filesystem::path& path, sim:
   scenario.field = field.field;
   scenario.rules = field.rules;
   source.root.erase("field_file");
+}
+
+/// The first key of [goal] and [rules] in which they differ and whose value in the settings is not `but_for`'s.
+std::optional<std::string> first_difference(const sim::Scenario& scenario, const Settings& settings,
+                                            const Settings* but_for) {
+  const auto own = setting_values(settings), played = setting_values(on_field_of(scenario, settings));
+  const auto excused = but_for ? setting_values(*but_for) : std::map<std::string, std::string>{};
+  for (const auto& [key, value] : own) {
+    if (!key.starts_with("goal.") && !key.starts_with("rules.")) continue;
+    const auto same = excused.find(key);
+    if (value == played.at(key) || (same != excused.end() && same->second == value)) continue;
+    return fmt::format("{} = {}, but the scenario's [field] and [rules] say {}", key, value, played.at(key));
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -57,5 +72,19 @@ double half_minutes(const Simulator& settings, const sim::Scenario& scenario) {
 }
 
 std::string to_toml_text(const sim::Scenario& scenario) { return to_toml(scenario); }
+
+Settings on_field_of(const sim::Scenario& scenario, Settings settings) {
+  settings.run.field_file.clear();
+  return on_field({scenario.field, scenario.rules}, std::move(settings));
+}
+
+std::optional<std::string> field_difference(const sim::Scenario& scenario, const Settings& settings) {
+  return first_difference(scenario, settings, nullptr);
+}
+
+std::optional<std::string> field_contradiction(const sim::Scenario& scenario, const Settings& settings) {
+  const Settings defaults;
+  return first_difference(scenario, settings, settings.run.field_file.empty() ? &defaults : nullptr);
+}
 
 }  // namespace trivela::config

@@ -7,9 +7,8 @@
 #include "evaluator/render/gate.hpp"
 #include "evaluator/stats/bayes.hpp"
 #include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/exact.hpp"
 #include "evaluator/stats/counts/interval.hpp"
-#include "evaluator/stats/counts/robustness.hpp"
-#include "evaluator/stats/counts/verdict.hpp"
 
 namespace trivela::evaluator {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluator/compare/comparison_lines.hpp"
 #include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/render/simulated.hpp"
 #include "evaluator/stats/test_plan.hpp"

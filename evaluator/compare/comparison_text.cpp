@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "evaluator/compare/comparison.hpp"
-#include "evaluator/compare/comparison_lines.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/render/text_table.hpp"
 
 namespace trivela::evaluator {

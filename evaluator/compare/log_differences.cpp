@@ -9,7 +9,7 @@
 #include <sstream>
 #include <utility>
 
-#include "evaluator/compare/comparison_lines.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
 #include "kicking/text/printable.hpp"
 #include "log/read/reader.hpp"
 

@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "evaluator/compare/comparison_lines.hpp"
 #include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/render/json_values.hpp"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "evaluator/compare/comparison_lines.hpp"
 #include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/render/text_table.hpp"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluator/compare/comparison_lines.hpp"
 #include "evaluator/compare/policy_comparison.hpp"
 
 namespace trivela::evaluator {

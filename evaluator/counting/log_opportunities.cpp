@@ -8,15 +8,13 @@
 #include <utility>
 
 #include "evaluator/counting/log_minutes.hpp"
-#include "evaluator/counting/possession_places.hpp"
-#include "evaluator/counting/truth_count.hpp"
 #include "evaluator/metrics/assigned_possessions.sql.hpp"
 #include "evaluator/metrics/compared_kicks.sql.hpp"
 #include "evaluator/metrics/first_decisions.sql.hpp"
 #include "evaluator/metrics/opportunities.sql.hpp"
 #include "evaluator/sessions/log_sessions.hpp"
 #include "evaluator/sessions/no_goal.hpp"
-#include "evaluator/sessions/played_length.hpp"
+#include "evaluator/sessions/recording_gaps.hpp"
 #include "log/read/reader.hpp"
 
 namespace trivela::evaluator {

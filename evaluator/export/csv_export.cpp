@@ -9,8 +9,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "evaluator/export/draft.hpp"
-#include "evaluator/render/escaped_text.hpp"
+#include "evaluator/render/text_table.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -9,7 +9,6 @@
 #include <optional>
 #include <set>
 
-#include "evaluator/export/draft.hpp"
 #include "evaluator/export/match_scene.hpp"
 #include "evaluator/mcap/mcap_writer.hpp"
 #include "evaluator/mcap/ros_types.hpp"

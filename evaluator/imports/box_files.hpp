@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/imports/box_command.hpp"
 #include "evaluator/imports/referee_log.hpp"
 #include "evaluator/imports/team_log.hpp"
 

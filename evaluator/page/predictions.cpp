@@ -11,7 +11,6 @@
 #include "evaluator/page/report_page.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/stats/counts/interval.hpp"
-#include "evaluator/stats/counts/quantile.hpp"
 
 namespace trivela::evaluator::page {
 namespace {

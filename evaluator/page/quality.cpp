@@ -6,8 +6,7 @@
 #include "evaluator/page/report_page.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/sessions/merge_report.hpp"
-#include "evaluator/table2/report_sentences.hpp"
-#include "kicking/geometry/time.hpp"
+#include "evaluator/table2/report_parts.hpp"
 
 namespace trivela::evaluator::page {
 namespace {
@@ -57,9 +56,7 @@ std::string orders(const Report& report) {
   constexpr std::size_t kMostLines = 20;
   for (const UnclosedKick& kick : report.unclosed_kicks) {
     if (lines.size() == kMostLines) break;
-    lines.push_back(fmt::format("unclosed kick {} of robot {} at {:.2f} s ({}): no{}{}{}", kick.kick_id, kick.robot_id,
-                                kicking::seconds(kick.t_ns), kick.policy, kick.has_order ? "" : " order",
-                                kick.has_receipt ? "" : " receipt", kick.has_outcome ? "" : " outcome"));
+    lines.push_back(line_of(kick));
   }
   if (report.unclosed_kicks.size() > kMostLines)
     lines.push_back(fmt::format("{} unclosed kicks in all", report.unclosed_kicks.size()));

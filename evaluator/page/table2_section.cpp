@@ -13,19 +13,8 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-Cells counts_of(const PolicyRow& row, const stats::Interval& ci) {
-  const auto share = stats::efficiency(row.counts());
-  const auto rate = row.kicks_per_min();
-  return {std::to_string(row.inside()),
-          std::to_string(row.outside()),
-          std::to_string(row.unknown()),
-          share ? percent(*share) : "\u2013",
-          share ? percent(ci) : "\u2013",
-          row.played_min ? fmt::format("{:.2f}", *row.played_min) : "\u2013",
-          rate ? fmt::format("{:.2f}", *rate) : "\u2013"};
-}
-
 const Cells kHead{"inside", "outside", "unknown", "efficiency", "95 %", "minutes", "kicks a minute"};
+constexpr const char* kNone = "\u2013";
 
 Cells joined(Cells first, const Cells& then) {
   first.insert(first.end(), then.begin(), then.end());
@@ -51,14 +40,8 @@ std::string misses_table(const Report& report) {
 
 std::string goals_table(const Report& report) {
   if (!report.keeper()) return "";
-  std::vector<Cells> rows{{"policy", "inside", "goals", "saved", "not known", "goals a minute"}};
-  for (const PolicyRow& row : report.policies) {
-    Cells& cells = rows.emplace_back(Cells{name_of(row)});
-    for (const std::int64_t n : {row.inside(), row.goals(), row.saved(), row.goal_not_known()})
-      cells.push_back(std::to_string(n));
-    const auto rate = row.per_min(row.goals());
-    cells.push_back(rate ? fmt::format("{:.2f}", *rate) : "\u2013");
-  }
+  std::vector<Cells> rows{joined({"policy"}, kGoalHead)};
+  for (const PolicyRow& row : report.policies) rows.push_back(joined({name_of(row)}, goal_cells(row, kNone)));
   return table("Goals: inside, and no keeper stopped them", rows);
 }
 
@@ -69,7 +52,7 @@ std::string table2_section(const PageView& view) {
   std::vector<Cells> rows{joined({"policy"}, kHead)};
   std::vector<std::string> notes;
   for (const PolicyRow& row : report.policies) {
-    rows.push_back(joined({name_of(row)}, counts_of(row, row.efficiency_ci())));
+    rows.push_back(joined({name_of(row)}, count_cells(row, kNone)));
     if (row.repeated > 0) {
       notes.push_back(fmt::format("{} of the kicks of {} are in situations that it had in an earlier half, too.",
                                   row.repeated, name_of(row)));
@@ -83,8 +66,7 @@ std::string table2_section(const PageView& view) {
   if (!report.robots.empty()) {
     std::vector<Cells> by_robot{joined({"robot", "policy"}, kHead)};
     for (const RobotRow& row : report.robots)
-      by_robot.push_back(
-          joined({std::to_string(row.robot_id), name_of(row)}, counts_of(row, stats::wilson(row.counts()))));
+      by_robot.push_back(joined({std::to_string(row.robot_id), name_of(row)}, count_cells(row, kNone)));
     body += table("By robot", by_robot);
   }
   return section("table2", "Table 2", body);

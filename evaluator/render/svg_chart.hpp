@@ -38,4 +38,38 @@ std::string to_svg(const Chart& chart);
 /// them.
 std::vector<double> round_ticks(double low, double high);
 
+/// Linear: values to pixels.
+struct Scale {
+  double from = 0.0, to = 1.0;
+  double from_px = 0.0, to_px = 1.0;
+
+  double px(double value) const { return from_px + (to_px - from_px) * (value - from) / (to - from); }
+  double length_px(double value) const { return px(from + value) - from_px; }
+};
+
+/// A scale over round numbers that `low` and `high` lie within, and these numbers.
+struct Axis {
+  Scale scale;
+  std::vector<double> ticks;
+  std::string label;  ///< with its unit
+};
+Axis axis(double low, double high, double from_px, double to_px, const std::string& label);
+
+/// A tick without the noise of its sum: "0.3", "-2", "10".
+std::string tick_text(double value);
+
+/// How every figure begins: its size, its title for who hovers, paper, and the style sheet with colours for light and
+/// for dark readers, `more_style` behind it.
+std::string svg_head(double width, double height, const std::string& title, const std::string& more_style = "");
+
+/// Classes of a series' marks in the style sheet.
+std::string svg_class(const ChartSeries& series);
+
+// Marks, places in pixels. `anchor`: start, middle, end; `more`: further attributes, with a blank in front.
+std::string svg_text(double x, double y, const char* anchor, const std::string& words, const std::string& more = "");
+std::string svg_line(const std::string& kind, double x1, double y1, double x2, double y2);
+std::string svg_polyline(const std::string& kind, const std::vector<ChartPoint>& points);
+std::string svg_circle(const std::string& kind, const ChartPoint& centre, double radius);
+std::string svg_rect(const std::string& kind, const ChartPoint& corner, double width, double height);
+
 }  // namespace trivela::evaluator

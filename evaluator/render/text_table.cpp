@@ -3,10 +3,59 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "kicking/text/printable.hpp"
 
 namespace trivela::evaluator {
+namespace {
+
+using kicking::printable;
+using Pair = std::pair<char, std::string_view>;
+
+constexpr std::array kLatex{Pair{'\\', "\\textbackslash{}"},
+                            Pair{'~', "\\textasciitilde{}"},
+                            Pair{'^', "\\textasciicircum{}"},
+                            Pair{'<', "\\textless{}"},
+                            Pair{'>', "\\textgreater{}"},
+                            Pair{'|', "\\textbar{}"},
+                            Pair{'"', "\\textquotedbl{}"},
+                            Pair{'`', "\\textasciigrave{}"},
+                            Pair{'{', "\\{"},
+                            Pair{'\'', "\\textquotesingle{}"},
+                            Pair{'}', "\\}"},
+                            Pair{'$', "\\$"},
+                            Pair{'&', "\\&"},
+                            Pair{'#', "\\#"},
+                            Pair{'_', "\\_"},
+                            Pair{'%', "\\%"},
+                            Pair{'[', "{[}"},
+                            Pair{']', "{]}"}};
+
+// Characters that Markdown gives a meaning anywhere in a line; a backslash takes it away.
+constexpr std::string_view kMarkup = "\\`*_{}[]|~$#";
+
+// Characters that a backslash does not keep from being a link, a mention or an entity.
+constexpr std::array kMarkdown{Pair{'&', "&amp;"}, Pair{'<', "&lt;"}, Pair{'>', "&gt;"}, Pair{'@', "&#64;"}};
+
+std::string_view replaced(const auto& pairs, char c) {
+  for (const auto& [from, to] : pairs)
+    if (c == from) return to;
+  return {};
+}
+
+// Whether the character at `i` makes the line an item of a list, or the rest a link.
+bool begins_something(std::string_view text, std::size_t i) {
+  const char c = text[i];
+  const bool blank_follows = i + 1 == text.size() || text[i + 1] == ' ' || text[i + 1] == '\t';
+  if (c == '-' || c == '+') return i == 0 && text.size() > 1 && blank_follows;
+  const bool numbered = i > 0 && text.substr(0, i).find_first_not_of("0123456789") == std::string_view::npos;
+  if (c == ')') return numbered && blank_follows;
+  return c == '.' && ((numbered && blank_follows) || text.substr(0, i).ends_with("www"));
+}
+
+}  // namespace
 
 std::string text_table(const std::vector<std::vector<std::string>>& rows) {
   auto cells = rows;
@@ -35,6 +84,42 @@ std::string percent(stats::Interval fractions) {
 std::string words(std::string label) {
   std::ranges::replace(label, '_', ' ');
   return label;
+}
+
+std::string markdown_text(std::string_view text) {
+  const std::string shown = printable(text);
+  std::string line;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const char c = shown[i];
+    if (const std::string_view entity = replaced(kMarkdown, c); !entity.empty()) {
+      line += entity;
+    } else if (c == ':' && std::string_view(shown).substr(i).starts_with("://")) {
+      line += "&#58;";  // no address that is made a link
+    } else {
+      if (kMarkup.find(c) != std::string_view::npos || begins_something(shown, i)) line += '\\';
+      line += c;
+    }
+  }
+  return line;
+}
+
+std::string latex_text(std::string_view text) {
+  std::string line;
+  for (const char c : printable(text)) {
+    if (c == '-' && line.ends_with('-')) line += "{}";  // two would be a dash
+    const std::string_view command = replaced(kLatex, c);
+    command.empty() ? line += c : line += command;
+  }
+  return line;
+}
+
+std::string csv_text(std::string_view text) {
+  std::string cell = printable(text);
+  if (!cell.empty() && std::string_view("=+-@\t").find(cell.front()) != std::string_view::npos) cell.insert(0, "'");
+  if (cell.find_first_of(",\"") == std::string::npos) return cell;
+  std::string quoted = "\"";
+  for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
 }
 
 }  // namespace trivela::evaluator

@@ -9,11 +9,10 @@
 
 #include "evaluator/sessions/label_quality.hpp"
 #include "evaluator/sessions/log_sessions.hpp"
-#include "evaluator/sessions/played_length.hpp"
 #include "evaluator/sessions/recording_gaps.hpp"
 #include "log/file/files_beside.hpp"
 #include "log/file/new_file.hpp"
-#include "log/merge/kick_conflicts.hpp"
+#include "log/merge/merge_source.hpp"
 #include "log/schema/refused_log.hpp"
 
 namespace trivela::evaluator {

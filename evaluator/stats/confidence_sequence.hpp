@@ -1,7 +1,7 @@
 #pragma once
 
 #include "evaluator/stats/counts/counts.hpp"
-#include "evaluator/stats/counts/quantile.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 

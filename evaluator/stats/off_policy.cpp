@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "evaluator/stats/cluster_variance.hpp"
 #include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/logistic_ridge.hpp"
 

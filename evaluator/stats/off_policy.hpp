@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "evaluator/stats/counts/counts.hpp"
-#include "evaluator/stats/counts/quantile.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 

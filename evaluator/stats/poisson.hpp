@@ -5,7 +5,7 @@
 #include <span>
 
 #include "evaluator/stats/counts/counts.hpp"
-#include "evaluator/stats/counts/quantile.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 

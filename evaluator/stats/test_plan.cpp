@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "evaluator/stats/counts/counts.hpp"
-#include "evaluator/stats/counts/quantile.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "evaluator/render/svg_style.hpp"
+#include "evaluator/render/svg_chart.hpp"
 #include "kicking/alignment/deflection.hpp"
 #include "kicking/ballistics/crossing.hpp"
 #include "kicking/outcome/outcome.hpp"

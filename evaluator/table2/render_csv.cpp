@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "evaluator/render/escaped_text.hpp"
+#include "evaluator/render/text_table.hpp"
 #include "evaluator/sessions/no_goal.hpp"
 #include "evaluator/table2/table2.hpp"
 

@@ -31,11 +31,14 @@ Json policy_json(const PolicyRow& row) {
           {"misses", misses}};
 }
 
-Json session_json(const log::RecordedSession& session, const ImportNotes& imports) {
+Json policies_json(const std::vector<log::HalfPolicy>& halves) {
   Json policies = Json::array();
-  for (const auto& half : session.policies) {
+  for (const log::HalfPolicy& half : halves)
     policies.push_back({{"half", half.half}, {"policy", half.policy}, {"robot_id", half.robot_id}});
-  }
+  return policies;
+}
+
+Json session_json(const log::RecordedSession& session, const ImportNotes& imports) {
   const auto notes = imports.find(session.session_id);
   return {{"uuid", session.uuid},
           {"robot_id", json_of(session.robot_id)},
@@ -50,14 +53,10 @@ Json session_json(const log::RecordedSession& session, const ImportNotes& import
           {"replays", session.replays_uuid.empty() ? Json() : Json(session.replays_uuid)},
           {"paired_halves", session.paired_halves},
           {"planned_s", json_of(session.planned_s)},
-          {"policies", policies}};
+          {"policies", policies_json(session.policies)}};
 }
 
 Json arm_json(const Arm& arm) {
-  Json policies = Json::array();
-  for (const auto& half : arm.policies) {
-    policies.push_back({{"half", half.half}, {"policy", half.policy}, {"robot_id", half.robot_id}});
-  }
   return {{"arm", arm.name},
           {"log", arm.log},
           {"scenario", arm.scenario},
@@ -66,7 +65,7 @@ Json arm_json(const Arm& arm) {
           {"configurations", arm.configurations},
           {"sessions", arm.sessions},
           {"matches", arm.matches},
-          {"policies", policies}};
+          {"policies", policies_json(arm.policies)}};
 }
 
 Json loss_json(const log::Loss& loss) {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "evaluator/render/escaped_text.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/table2/report_parts.hpp"
 #include "kicking/text/printable.hpp"

@@ -7,7 +7,6 @@
 
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/sessions/no_goal.hpp"
-#include "evaluator/table2/report_sentences.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"
@@ -17,7 +16,7 @@ namespace {
 
 std::string shown(std::int64_t n) { return std::to_string(n); }
 
-std::string shown(std::optional<double> x) { return x ? fmt::format("{:.2f}", *x) : "-"; }
+std::string shown(std::optional<double> x, const std::string& none) { return x ? fmt::format("{:.2f}", *x) : none; }
 
 // Lines that are indented for a terminal, as sentences.
 void add_lines(std::vector<std::string>& notes, const std::string& lines) {
@@ -40,16 +39,8 @@ std::vector<std::string> head_of(const Report& report, const std::vector<std::st
   return cells;
 }
 
-const std::vector<std::string> kCountHead = {"inside",      "outside", "unknown",       "efficiency",
-                                             "Wilson 95 %", "minutes", "kicks a minute"};
-
-void add_counts(std::vector<std::string>& cells, const PolicyRow& row) {
-  const auto efficiency = stats::efficiency(row.counts());
-  for (const std::int64_t n : {row.inside(), row.outside(), row.unknown()}) cells.push_back(shown(n));
-  cells.push_back(efficiency ? percent(*efficiency) : "-");
-  cells.push_back(efficiency ? percent(row.efficiency_ci()) : "-");
-  cells.push_back(shown(row.played_min));
-  cells.push_back(shown(row.kicks_per_min()));
+void append(std::vector<std::string>& cells, const std::vector<std::string>& more) {
+  cells.insert(cells.end(), more.begin(), more.end());
 }
 
 ReportPart table2_part(const Report& report) {
@@ -62,7 +53,7 @@ ReportPart table2_part(const Report& report) {
     inside.push_back({kicking::printable(name_of(row)), row.inside_kicks});  // its lines are taken apart
     blocked_apart = blocked_apart || row.blocked_apart;
     part.table.push_back(who_of(report, row));
-    add_counts(part.table.back(), row);
+    append(part.table.back(), count_cells(row, "-"));
   }
   add_lines(part.notes, inside_lines(inside));
   if (report.arms.size() > 1)
@@ -79,14 +70,9 @@ ReportPart table2_part(const Report& report) {
 }
 
 ReportPart goals_part(const Report& report) {
-  ReportPart part{"Goals: inside, and no keeper stopped them",
-                  {head_of(report, {"inside", "goals", "saved", "not known", "goals a minute"})},
-                  {}};
+  ReportPart part{"Goals: inside, and no keeper stopped them", {head_of(report, kGoalHead)}, {}};
   for (const PolicyRow& row : report.policies) {
-    std::vector<std::string>& cells = part.table.emplace_back(who_of(report, row));
-    for (const std::int64_t n : {row.inside(), row.goals(), row.saved(), row.goal_not_known()})
-      cells.push_back(shown(n));
-    cells.push_back(shown(row.per_min(row.goals())));
+    append(part.table.emplace_back(who_of(report, row)), goal_cells(row, "-"));
   }
   return part;
 }
@@ -97,7 +83,7 @@ ReportPart by_robot_part(const Report& report) {
   for (const RobotRow& row : report.robots) {
     part.table.push_back(who_of(report, row));
     part.table.back().insert(part.table.back().begin(), shown(row.robot_id));
-    add_counts(part.table.back(), row);
+    append(part.table.back(), count_cells(row, "-"));
   }
   part.notes.emplace_back("minutes: of play, in the possessions in which the robot had the ball");
   return part;
@@ -202,9 +188,7 @@ ReportPart quality_part(const Report& report) {
   for (const RefusedOrders& refused : report.refused_orders) notes.push_back(line_of(refused));
   if (report.unclosed_kicks.empty()) notes.emplace_back("unclosed kicks: none");
   for (const UnclosedKick& kick : report.unclosed_kicks) {
-    notes.push_back(fmt::format("unclosed kick {} of robot {} at {:.2f} s ({}): no{}{}{}", kick.kick_id, kick.robot_id,
-                                kicking::seconds(kick.t_ns), kick.policy, kick.has_order ? "" : " order",
-                                kick.has_receipt ? "" : " receipt", kick.has_outcome ? "" : " outcome"));
+    notes.push_back(line_of(kick));
   }
   for (const PolicyRow& row : report.policies) add_bounds(notes, row);
   if (report.hand_labels.kicks > 0) notes.push_back(report.hand_labels.line());
@@ -216,6 +200,28 @@ ReportPart quality_part(const Report& report) {
 }
 
 }  // namespace
+
+std::vector<std::string> count_cells(const PolicyRow& row, const std::string& none) {
+  const auto efficiency = stats::efficiency(row.counts());
+  return {shown(row.inside()),
+          shown(row.outside()),
+          shown(row.unknown()),
+          efficiency ? percent(*efficiency) : none,
+          efficiency ? percent(row.efficiency_ci()) : none,
+          shown(row.played_min, none),
+          shown(row.kicks_per_min(), none)};
+}
+
+std::vector<std::string> goal_cells(const PolicyRow& row, const std::string& none) {
+  return {shown(row.inside()), shown(row.goals()), shown(row.saved()), shown(row.goal_not_known()),
+          shown(row.per_min(row.goals()), none)};
+}
+
+std::string line_of(const UnclosedKick& kick) {
+  return fmt::format("unclosed kick {} of robot {} at {:.2f} s ({}): no{}{}{}", kick.kick_id, kick.robot_id,
+                     kicking::seconds(kick.t_ns), kick.policy, kick.has_order ? "" : " order",
+                     kick.has_receipt ? "" : " receipt", kick.has_outcome ? "" : " outcome");
+}
 
 std::string line_of(const RefusedOrders& refused) {
   if (refused.refusal == "not_known")

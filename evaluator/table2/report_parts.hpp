@@ -24,7 +24,31 @@ struct ReportParts {
 
 ReportParts parts_of(const Report& report);
 
+/// What stands in kCountHead of a row, and in kGoalHead; `none` where there is no such number.
+inline const std::vector<std::string> kCountHead = {"inside",      "outside", "unknown",       "efficiency",
+                                                    "Wilson 95 %", "minutes", "kicks a minute"};
+std::vector<std::string> count_cells(const PolicyRow& row, const std::string& none);
+inline const std::vector<std::string> kGoalHead = {"inside", "goals", "saved", "not known", "goals a minute"};
+std::vector<std::string> goal_cells(const PolicyRow& row, const std::string& none);
+
+/// "unclosed kick 7 of robot 1 at 3.20 s (moving): no receipt outcome".
+std::string line_of(const UnclosedKick& kick);
+
 /// "moving"; of an experiment the arm, and its policy where that is another word.
 std::string name_of(const PolicyRow& row);
+
+/// Sentences on what was played: the arms of experiments, other sessions one by one. What belongs to the one before
+/// begins with two blanks.
+std::vector<std::string> heading_of(const Report& report);
+
+/// The `trivela compare` that says how sure the differences of a report are, as a line to copy: by arm, policy, log or
+/// robot, whichever there are several of, in that order. Empty where there is nothing to compare: no kick, or replays.
+std::string next_comparison(const Report& report);
+
+/// "refused orders, no kicks: 3 x stale (moving); accepted at first and not fired: 1".
+std::string line_of(const RefusedOrders& refused);
+
+/// A word as a shell takes it, in quotes where it needs them.
+std::string shell_word(const std::string& word);
 
 }  // namespace trivela::evaluator

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "config/scenario/scenario_field.hpp"
+#include "config/scenario/scenario.hpp"
 #include "emulators/sim/sim_messages.hpp"
 #include "experiment/play/in_process_robot.hpp"
 #include "experiment/play/oracle.hpp"

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "experiment/play/arm.hpp"
-#include "experiment/play/match_record.hpp"
 #include "experiment/play/played.hpp"
 #include "sim/scenario.hpp"
 

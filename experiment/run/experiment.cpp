@@ -11,7 +11,6 @@
 #include "evaluator/render/simulated.hpp"
 #include "experiment/run/arms.hpp"
 #include "experiment/run/match_play.hpp"
-#include "experiment/run/record_match.hpp"
 #include "experiment/study/report.hpp"
 #include "log/read/reader.hpp"
 #include "log/schema/digest.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiment/play/play_match.hpp"
-#include "experiment/run/calibrated_arms.hpp"
+#include "experiment/run/calibrations.hpp"
 #include "log/shards/shard.hpp"
 
 namespace trivela::experiment {

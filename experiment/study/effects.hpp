@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "evaluator/stats/cluster_variance.hpp"
+#include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/counts/counts.hpp"
-#include "log/shards/match_tally.hpp"
+#include "log/shards/study_results.hpp"
 
 namespace trivela::experiment {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/run/calibrated_arms.hpp"
+#include "experiment/run/calibrations.hpp"
 #include "experiment/study/effects.hpp"
 #include "log/shards/study_results.hpp"
 #include "sim/scenario.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "evaluator/render/simulated.hpp"
-#include "evaluator/render/svg_style.hpp"
+#include "evaluator/render/svg_chart.hpp"
 #include "evaluator/render/text_table.hpp"
 
 namespace trivela::experiment {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "evaluator/render/simulated.hpp"
-#include "evaluator/render/svg_style.hpp"
+#include "evaluator/render/svg_chart.hpp"
 #include "experiment/study/sensitivity.hpp"
 
 namespace trivela::experiment {
@@ -34,27 +34,24 @@ class Panel {
         high = std::max(high, 100.0 * (has_ends ? moved.ci.hi : moved.value));
       }
     }
-    ticks_ = evaluator::round_ticks(low, high);
+    axis_ = evaluator::axis(low, high, left_, left_ + kPanel, "");
   }
 
   std::string draw() const {
     const double bottom = kTop + kRow * static_cast<double>(rows_);
     std::string svg = evaluator::svg_text(left_ + 0.5 * kPanel, kTop - 14.0, "middle",
                                           report_.arms[headline_ + 1] + " - " + report_.arms[headline_]);
-    for (const double tick : ticks_) {
+    for (const double tick : axis_.ticks) {
       svg += fmt::format("<line class=\"{0}\" x1=\"{1:.1f}\" y1=\"{2:.1f}\" x2=\"{1:.1f}\" y2=\"{3:.1f}\"/>\n",
                          std::abs(tick) < 1e-9 ? "axis" : "grid", px(tick), kTop, bottom);
-      svg += evaluator::svg_text(px(tick), bottom + 20.0, "middle",
-                                 fmt::format("{:g}", std::abs(tick) < 1e-9 ? 0.0 : tick));
+      svg += evaluator::svg_text(px(tick), bottom + 20.0, "middle", evaluator::tick_text(tick));
     }
     for (std::size_t row = 0; row < rows_; ++row) svg += bars(row);
     return svg;
   }
 
  private:
-  double px(double points) const {
-    return left_ + kPanel * (points - ticks_.front()) / (ticks_.back() - ticks_.front());
-  }
+  double px(double points) const { return axis_.scale.px(points); }
 
   std::string bars(std::size_t row) const {
     const PlayedInput& input = report_.inputs[row];
@@ -73,7 +70,7 @@ class Panel {
   std::size_t headline_;
   std::size_t rows_;
   double left_;
-  std::vector<double> ticks_;
+  evaluator::Axis axis_;
 };
 
 }  // namespace

@@ -34,4 +34,11 @@ std::unique_ptr<SQLite::Database> new_file(const std::filesystem::path& path, co
 /// Folds the write-ahead log into the file. False: a reader holds it, so that it stays beside the file.
 bool fold(SQLite::Database& database);
 
+/// Thrown where whoever is told of the progress says to stop: no error, and no file is kept.
+struct Stopped {};
+
+/// Calls `work`, which runs statements of `database`, and asks meanwhile whether to go on, within long statements as
+/// well. Throws Stopped where `go_on` says no, and whatever the two throw.
+void stoppable(SQLite::Database& database, const std::function<bool()>& go_on, const std::function<void()>& work);
+
 }  // namespace trivela::log

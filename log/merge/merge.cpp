@@ -10,10 +10,8 @@
 
 #include "log/file/new_file.hpp"
 #include "log/file/session_tallies.hpp"
-#include "log/file/stoppable.hpp"
 #include "log/merge/merge_clocks.hpp"
 #include "log/merge/merge_source.hpp"
-#include "log/merge/merge_whole.hpp"
 #include "log/merge/row_copy.hpp"
 #include "log/schema/row_digest.hpp"
 #include "log/schema/schema.hpp"

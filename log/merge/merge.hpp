@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "log/merge/clock_alignment.hpp"
-#include "log/merge/kick_conflicts.hpp"
+#include "log/merge/merge_source.hpp"
 
 namespace trivela::log {
 

@@ -2,6 +2,10 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,5 +36,21 @@ class RowCopy {
   std::vector<std::string> columns_;
   SQLite::Statement insert_;
 };
+
+/// Copies every session of a match log of this version that was verified, with its rows, digest and tallies, into a new
+/// one, without looking at a cell. Outside of any transaction. `told(rows)`: that were copied so far. Rows that are
+/// against the schema of the new log are left out, and with them the digest of their session. Returns the rows. Throws
+/// SQLite::Exception.
+std::int64_t copy_whole(SQLite::Database& database, const std::filesystem::path& source,
+                        const std::function<void(std::int64_t rows)>& told);
+
+/// The rows of a session that copy_whole() brought along as it was recorded; none: it did not.
+std::optional<std::int64_t> rows_of_whole(SQLite::Database& database, std::int64_t session_id);
+
+/// Whether the session's tallies came along, too.
+bool has_tallies(SQLite::Database& database, std::int64_t session_id);
+
+/// Rows of any session in the new log, counted.
+std::int64_t counted_rows(SQLite::Database& database, std::int64_t session_id);
 
 }  // namespace trivela::log

@@ -12,7 +12,6 @@
 #include "log/file/files_beside.hpp"
 #include "log/file/log_check.hpp"
 #include "log/read/timed_rows.hpp"
-#include "log/schema/loss.hpp"
 #include "log/schema/queries.hpp"
 #include "log/schema/session.hpp"
 

@@ -14,7 +14,6 @@
 
 #include "log/file/files_beside.hpp"
 #include "log/file/new_file.hpp"
-#include "log/file/stoppable.hpp"
 #include "log/read/reader.hpp"
 #include "log/schema/digest.hpp"
 #include "log/schema/row_digest.hpp"

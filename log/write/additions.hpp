@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -46,6 +47,11 @@ struct Note {
   std::string who;
 };
 
+/// UTC since 1970.
+inline std::int64_t utc_now_ns() {
+  return std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count();
+}
+
 /// A match log that people add rows to. Nothing that is there is changed: every row is added in one transaction, behind
 /// those of the same kick or kind by its time, and no digest covers it. A recorder or readers may be at work on the
 /// file.
@@ -55,7 +61,7 @@ class Additions {
   /// than kMatchLog, or cannot be written.
   explicit Additions(const std::filesystem::path& path);
 
-  /// `now_utc_ns`: UTC since 1970. Throws BadAddition where a label is none of kLabels, a kind none of kNoteKinds,
+  /// Throws BadAddition where a label is none of kLabels, a kind none of kNoteKinds,
   /// nobody says so, a text is too long or no UTF-8, std::runtime_error where the file refuses it: nothing is added
   /// then.
   void add(const Label& label, std::int64_t now_utc_ns);

@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
-#include "log/schema/loss.hpp"
 #include "log/schema/schema.hpp"
+#include "log/schema/session.hpp"
 #include "log/write/row_queue.hpp"
 
 namespace trivela::log {

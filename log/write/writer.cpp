@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "log/schema/digest.hpp"
-#include "log/write/commit_pace.hpp"
+#include "log/write/row_queue.hpp"
 #include "log/write/session_writer.hpp"
 
 namespace trivela::log {

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "log/schema/loss.hpp"
 #include "log/schema/row.hpp"
 #include "log/schema/session.hpp"
 

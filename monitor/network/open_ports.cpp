@@ -1,4 +1,4 @@
-#include "monitor/network/probes.hpp"
+#include "monitor/network/gather.hpp"
 
 #include <arpa/inet.h>
 #include <linux/inet_diag.h>

@@ -11,7 +11,6 @@
 #include "bus/renewal.hpp"
 #include "config/field.hpp"
 #include "config/scenario/scenario.hpp"
-#include "config/scenario/scenario_field.hpp"
 #include "emulators/sim/sim_messages.hpp"
 #include "kicking/geometry/time.hpp"
 #include "nodes/runtime/node_main.hpp"

@@ -7,7 +7,7 @@
 
 #include "kicking/lob/analyzer.hpp"
 #include "log/write/scan_log.hpp"
-#include "pages/lob/plan.hpp"
+#include "pages/lob/lob_session.hpp"
 
 namespace trivela::pages {
 

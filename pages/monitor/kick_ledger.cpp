@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "evaluator/stats/confidence_sequence.hpp"
+
 namespace trivela::pages {
 namespace {
 
@@ -24,6 +26,14 @@ bool outweighs(const msg::KickReceipt& receipt, const KnownKick::Answered& last)
 bool has_ball(const msg::KickDecision& decision) {
   return decision.reason != msg::REASON_NOT_PLAYING && decision.reason != msg::REASON_NO_BALL &&
          decision.reason != msg::REASON_STALE_STATE;
+}
+
+namespace stats = evaluator::stats;
+
+RunningDifference difference_of(const RunningRow& older, const RunningRow& newer) {
+  return {older.policy, newer.policy,
+          stats::efficiency(newer.counts()).value_or(0.0) - stats::efficiency(older.counts()).value_or(0.0),
+          stats::difference_sequence(older.counts(), newer.counts())};
 }
 
 }  // namespace
@@ -129,6 +139,27 @@ std::map<std::optional<PolicyLabel>, KickTally> KickLedger::tallies(const Ledger
 std::vector<KnownKick> KickLedger::latest(std::size_t most) const {
   const std::size_t n = std::min(most, kicks_.size());
   return {kicks_.rbegin(), kicks_.rbegin() + static_cast<std::ptrdiff_t>(n)};
+}
+
+RunningTable running_table(const std::map<std::optional<PolicyLabel>, KickTally>& tallies) {
+  RunningTable table;
+  std::optional<RunningRow> nobodys;
+  for (const auto& [policy, kicks] : tallies) {
+    RunningRow row{policy ? policy->name() : "not received", kicks};
+    row.interval = stats::confidence_sequence(row.counts());
+    if (policy) {
+      table.rows.push_back(row);
+    } else {
+      nobodys = row;
+    }
+  }
+  std::vector<const RunningRow*> compared;
+  for (const RunningRow& row : table.rows) {
+    if (row.counts().n > 0) compared.push_back(&row);
+  }
+  if (compared.size() >= 2) table.difference = difference_of(*compared[0], *compared[1]);
+  if (nobodys) table.rows.push_back(*nobodys);
+  return table;
 }
 
 }  // namespace trivela::pages

@@ -4,10 +4,16 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "evaluator/story/decided_segments.hpp"
 #include "kicking/geometry/angle.hpp"
-#include "pages/monitor/running_table.hpp"
+#include "pages/monitor/kick_ledger.hpp"
+#include "pages/monitor/match_feed.hpp"
+#include "pages/monitor/monitor.css.hpp"
+#include "pages/monitor/monitor.html.hpp"
+#include "pages/monitor/monitor.js.hpp"
+#include "pages/monitor/pitch.js.hpp"
 
 namespace trivela::pages {
 namespace {
@@ -228,6 +234,17 @@ std::string match_json(const SceneState& state, std::int64_t now_ns) {
                  {"mended", mended_json(state)},
                  {"missed", state.streams.missed()},
                  {"nodes", state.nodes}});
+}
+
+Page monitor_page(std::string token) {
+  Page page;
+  page.assets = {{"/", kMonitorHtml, "text/html; charset=utf-8"},
+                 {"/monitor.js", kMonitorJs, "text/javascript; charset=utf-8"},
+                 {"/pitch.js", kPitchJs, "text/javascript; charset=utf-8"},
+                 {"/monitor.css", kMonitorCss, "text/css; charset=utf-8"}};
+  page.token = std::move(token);
+  page.most_viewers = 48;
+  return page;
 }
 
 }  // namespace trivela::pages

@@ -1,16 +1,23 @@
 #pragma once
 
+#include <fmt/core.h>
 #include <httplib.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <deque>
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -89,5 +96,86 @@ inline void hang_up_all(int port) {
     if (ntohs(bound) == port) ::shutdown(socket, SHUT_RDWR);
   }
 }
+
+inline void refuse(httplib::Response& response, int status, const std::string& sentence) {
+  using nlohmann::json;
+  response.status = status;
+  response.set_content(json{{"error", sentence}}.dump(-1, ' ', false, json::error_handler_t::replace),
+                       "application/json");
+}
+
+/// How a server listens.
+struct Listening {
+  std::string host;
+  int port = 0;  ///< 0: any free one
+  std::size_t most_connections = 512;
+  std::chrono::milliseconds timeout{2000};  ///< of a connection that says or takes nothing
+  int send_buffer_bytes = 0;                ///< 0: the system's
+  httplib::Headers headers{};               ///< of every answer
+};
+
+/// Routes, and the thread that answers them. It ends at once, whatever clients do. What the routes refer to must
+/// outlive it.
+class HttpServer {
+ public:
+  httplib::Server routes{};
+
+  HttpServer() {
+    routes.set_exception_handler([](const auto&, httplib::Response& response, const std::exception_ptr& failure) {
+      try {
+        std::rethrow_exception(failure);
+      } catch (const std::exception& error) {
+        refuse(response, 500, error.what());
+      }
+    });
+  }
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+  ~HttpServer() {
+    if (!thread_.joinable()) return;
+    // stop() is lost on a server that has not begun
+    while (!routes.is_running() && !ended_) std::this_thread::yield();
+    routes.stop();
+    hang_up_all(port_);
+    thread_.join();
+  }
+
+  /// Throws std::runtime_error naming the address where it is refused.
+  void listen(const Listening& how) {
+    routes.new_task_queue = [most = how.most_connections] { return new Connections(most); };
+    // Not httplib's: with SO_REUSEPORT two servers would share a port unnoticed.
+    routes.set_socket_options([bytes = how.send_buffer_bytes](socket_t socket) {
+      const int yes = 1;
+      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+      if (bytes > 0) setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes);
+    });
+    routes.set_tcp_nodelay(true);
+    routes.set_keep_alive_max_count(1);  // an idle connection would hold up the end,
+    routes.set_keep_alive_timeout(1);    // and so would one that never says anything
+    routes.set_read_timeout(how.timeout);
+    routes.set_write_timeout(how.timeout);
+    routes.set_payload_max_length(std::size_t{64} * 1024);
+    routes.set_default_headers(how.headers);
+    errno = 0;
+    port_ =
+        how.port == 0 ? routes.bind_to_any_port(how.host) : (routes.bind_to_port(how.host, how.port) ? how.port : -1);
+    if (port_ <= 0) {
+      const int reason = errno;
+      throw std::runtime_error{fmt::format("cannot listen on {}:{}: {}", how.host, how.port,
+                                           reason != 0 ? std::strerror(reason) : "the address is not this machine's")};
+    }
+    thread_ = std::thread([this] {
+      routes.listen_after_bind();
+      ended_ = true;
+    });
+  }
+
+  int port() const { return port_; }
+
+ private:
+  int port_ = 0;
+  std::atomic<bool> ended_ = false;
+  std::thread thread_;
+};
 
 }  // namespace trivela::pages

@@ -6,13 +6,10 @@
 
 #include <array>
 #include <atomic>
-#include <cerrno>
-#include <cstring>
-#include <thread>
 #include <utility>
 
 #include "pages/serve/connections.hpp"
-#include "pages/serve/token.hpp"
+#include "pages/serve/site.hpp"
 
 namespace trivela::pages {
 namespace {
@@ -26,22 +23,9 @@ constexpr int kSendBuffer_bytes = 32 * 1024;    // some messages: a slow viewer 
 constexpr std::chrono::milliseconds kStalled{700};  // a viewer that takes nothing for so long is hung up; it comes back
 constexpr std::chrono::seconds kStillHere{1};
 
-// Not httplib's: with SO_REUSEPORT two servers would share a port unnoticed.
-void set_options(socket_t socket) {
-  const int yes = 1;
-  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &kSendBuffer_bytes, sizeof kSendBuffer_bytes);
-}
-
 std::string own_name() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
-}
-
-void refuse(Response& response, int status, const std::string& sentence) {
-  response.status = status;
-  response.set_content(json{{"error", sentence}}.dump(-1, ' ', false, json::error_handler_t::replace),
-                       "application/json");
 }
 
 // Counts a viewer while it lives.
@@ -64,12 +48,9 @@ struct PageServer::Impl {
   Page page;
   Broadcast& broadcast;
   std::string host;
-  int port = 0;
   std::string name = own_name();
   std::atomic<std::size_t> viewers = 0;
-  httplib::Server server{};
-  std::atomic<bool> ended = false;
-  std::thread thread{};
+  HttpServer server{};
 
   void follow(Response& response) {
     auto seat = std::make_shared<Seat>(viewers, page.most_viewers);
@@ -112,7 +93,9 @@ struct PageServer::Impl {
     }
   }
 
-  std::string cookie() const { return fmt::format("trivela_{}", port); }  // a browser gives one to all ports of a host
+  std::string cookie() const {
+    return fmt::format("trivela_{}", server.port());
+  }  // a browser gives one to all ports of a host
 
   // Whoever shows the token is given the cookie, by which the page's own requests show it.
   bool has_token(const Request& request, Response& response) const {
@@ -143,55 +126,34 @@ struct PageServer::Impl {
 
   void route() {
     for (const Asset& asset : page.assets) {
-      server.Get(asset.path, [&asset](const Request&, Response& response) {
+      server.routes.Get(asset.path, [&asset](const Request&, Response& response) {
         response.set_content(asset.text.data(), asset.text.size(), asset.type);
       });
     }
     for (const Resource& resource : page.resources) {
-      server.Get(resource.path,
-                 [&, this](const Request& request, Response& response) { answer(resource, request, response); });
+      server.routes.Get(resource.path,
+                        [&, this](const Request& request, Response& response) { answer(resource, request, response); });
     }
-    server.Get("/api/events", [this](const Request&, Response& response) { follow(response); });
+    server.routes.Get("/api/events", [this](const Request&, Response& response) { follow(response); });
     if (page.command)
-      server.Post(R"(/api/([a-z-]+))", [this](const Request& request, Response& response) { post(request, response); });
-    server.set_pre_routing_handler([this](const Request& request, Response& response) {
+      server.routes.Post(R"(/api/([a-z-]+))",
+                         [this](const Request& request, Response& response) { post(request, response); });
+    server.routes.set_pre_routing_handler([this](const Request& request, Response& response) {
       return refused(request, response) ? httplib::Server::HandlerResponse::Handled
                                         : httplib::Server::HandlerResponse::Unhandled;
     });
-    server.set_exception_handler([](const Request&, Response& response, const std::exception_ptr& failure) {
-      try {
-        std::rethrow_exception(failure);
-      } catch (const std::exception& error) {
-        refuse(response, 500, error.what());
-      }
-    });
   }
 
-  void listen(int wanted_port) {
-    server.new_task_queue = [this] { return new Connections(page.most_viewers + kOtherConnections); };
-    server.set_socket_options(set_options);
-    server.set_tcp_nodelay(true);
-    server.set_keep_alive_max_count(1);  // an idle connection would hold up the end,
-    server.set_keep_alive_timeout(1);    // and so would one that never says anything
-    server.set_read_timeout(kStalled);
-    server.set_write_timeout(kStalled);
-    server.set_payload_max_length(std::size_t{64} * 1024);
-    server.set_default_headers(
-        {{"Content-Security-Policy", "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"},
-         {"X-Content-Type-Options", "nosniff"},
-         {"Referrer-Policy", "no-referrer"}});
-    errno = 0;
-    port =
-        wanted_port == 0 ? server.bind_to_any_port(host) : (server.bind_to_port(host, wanted_port) ? wanted_port : -1);
-    if (port <= 0) {
-      const int reason = errno;
-      throw std::runtime_error{fmt::format("cannot listen on {}:{}: {}", host, wanted_port,
-                                           reason != 0 ? std::strerror(reason) : "the address is not this machine's")};
-    }
-    thread = std::thread([this] {
-      server.listen_after_bind();
-      ended = true;
-    });
+  void listen(int port) {
+    server.listen(
+        {.host = host,
+         .port = port,
+         .most_connections = page.most_viewers + kOtherConnections,
+         .timeout = kStalled,
+         .send_buffer_bytes = kSendBuffer_bytes,
+         .headers = {{"Content-Security-Policy", "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"},
+                     {"X-Content-Type-Options", "nosniff"},
+                     {"Referrer-Policy", "no-referrer"}}});
   }
 };
 
@@ -201,23 +163,16 @@ PageServer::PageServer(Page page, Broadcast& broadcast, const ListenAddress& add
   impl_->listen(address.port);
 }
 
-PageServer::~PageServer() {
-  impl_->broadcast.close();
-  // stop() is lost on a server that has not begun
-  while (!impl_->server.is_running() && !impl_->ended) std::this_thread::yield();
-  impl_->server.stop();
-  hang_up_all(impl_->port);
-  impl_->thread.join();
-}
+PageServer::~PageServer() { impl_->broadcast.close(); }
 
-int PageServer::port() const { return impl_->port; }
+int PageServer::port() const { return impl_->server.port(); }
 
 std::string PageServer::url() const {
   const bool everywhere = impl_->host == "0.0.0.0" || impl_->host == "::";
   const std::string host = everywhere ? impl_->name : impl_->host;
   const std::string& token = impl_->page.token;
-  return fmt::format("http://{}:{}/{}", host.find(':') == std::string::npos ? host : "[" + host + "]", impl_->port,
-                     token.empty() ? "" : "?token=" + token);
+  return fmt::format("http://{}:{}/{}", host.find(':') == std::string::npos ? host : "[" + host + "]",
+                     impl_->server.port(), token.empty() ? "" : "?token=" + token);
 }
 
 }  // namespace trivela::pages

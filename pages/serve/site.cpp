@@ -2,6 +2,14 @@
 
 #include <arpa/inet.h>
 #include <fmt/core.h>
+#include <sys/random.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
 
 #include "config/text/error.hpp"
 #include "config/text/parse_number.hpp"
@@ -14,6 +22,13 @@ std::string lower(std::string name) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return name;
+}
+
+constexpr std::size_t kShortestToken = 16;
+constexpr std::size_t kLongestToken = 128;
+
+bool may_be_in_a_token(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_';
 }
 
 }  // namespace
@@ -46,6 +61,48 @@ bool names_this_machine(const std::string& host_header, const std::string& own_n
 
 bool same_origin(const std::string& origin_header, const std::string& host_header) {
   return origin_header.empty() || origin_header == "http://" + host_header;
+}
+
+std::string draw_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw std::runtime_error{fmt::format("cannot draw a token: {}", std::strerror(errno))};
+  std::string token;
+  for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
+  return token;
+}
+
+std::string token_of_file(const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  std::ifstream in(file);
+  std::string token;
+  if (!std::getline(in, token))
+    throw config::BadArgument{fmt::format("{}: no token can be read from it", file.string())};
+  if ((fs::status(file).permissions() & (fs::perms::group_all | fs::perms::others_all)) != fs::perms::none)
+    throw config::BadArgument{fmt::format("{}: somebody else than its owner may read it: chmod 600", file.string())};
+  if (token.size() < kShortestToken || token.size() > kLongestToken || !std::ranges::all_of(token, may_be_in_a_token))
+    throw config::BadArgument{fmt::format("{}: a token is a line of {} to {} letters, digits, '-' and '_'",
+                                          file.string(), kShortestToken, kLongestToken)};
+  return token;
+}
+
+bool same_token(const std::string& given, const std::string& token) {
+  unsigned char different = given.size() == token.size() ? 0 : 1;
+  for (std::size_t i = 0; i < token.size(); ++i)
+    different |= static_cast<unsigned char>(token[i] ^ (i < given.size() ? given[i] : '\0'));
+  return different == 0;
+}
+
+std::string cookie_of(const std::string& header, const std::string& name) {
+  for (std::size_t begin = 0; begin < header.size();) {
+    begin = header.find_first_not_of("; ", begin);
+    if (begin == std::string::npos) break;
+    const std::size_t end = std::min(header.find(';', begin), header.size());
+    const std::string pair = header.substr(begin, end - begin);
+    if (pair.starts_with(name + "=")) return pair.substr(name.size() + 1);
+    begin = end;
+  }
+  return {};
 }
 
 }  // namespace trivela::pages

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "evaluator/imports/possessions.hpp"
+#include "evaluator/imports/play_statistics.hpp"
 #include "evaluator/imports/record_times.hpp"
 #include "evaluator/imports/team_log.hpp"
 #include "tests/evaluator/team_log_writing.hpp"

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "cli/options/world.hpp"
-#include "config/scenario/scenario_field.hpp"
+#include "config/scenario/scenario.hpp"
 #include "config/settings.hpp"
 #include "experiment/play/oracle.hpp"
 #include "experiment/play/play_match.hpp"

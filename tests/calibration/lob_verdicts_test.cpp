@@ -3,7 +3,6 @@
 #include <fstream>
 
 #include "calibration/rows/lobs_of_scans.hpp"
-#include "calibration/rows/verdicts_file.hpp"
 #include "tests/evaluator/scan_fixture.hpp"
 
 namespace trivela::calibration {

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "cli/collect/fetch.hpp"
-#include "cli/collect/remote_command.hpp"
 #include "cli/verbs.hpp"
 #include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/match_fixture.hpp"

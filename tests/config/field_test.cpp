@@ -9,7 +9,6 @@
 #include <string>
 
 #include "config/scenario/scenario.hpp"
-#include "config/scenario/scenario_field.hpp"
 #include "config/text/error.hpp"
 #include "tests/support/folder.hpp"
 

@@ -1,5 +1,5 @@
 // How long the log's rows wait for company, on a clock that the tests turn.
-#include "log/write/commit_pace.hpp"
+#include "log/write/row_queue.hpp"
 
 #include <gmock/gmock.h>
 

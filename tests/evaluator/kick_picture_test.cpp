@@ -40,8 +40,8 @@ std::vector<Pixel> circles(const std::string& svg, const std::string& kind) {
 }
 
 /// The drawn goal says where metres of the field are.
-struct Scale {
-  explicit Scale(const std::string& svg, double half_width_m = 1.0) {
+struct DrawnScale {
+  explicit DrawnScale(const std::string& svg, double half_width_m = 1.0) {
     const std::vector<Pixel> goal = lines(svg, "axis goal").at(0);
     middle = {0.5 * (goal.at(0).x + goal.at(3).x), goal.at(0).y};
     px_per_m = (goal.at(3).x - goal.at(0).x) / (2.0 * half_width_m);
@@ -60,7 +60,7 @@ TEST(KickPicture, TheCrossingLiesWhereThePredictorSays) {
   for (const auto& picture : {kick({-1.6, 3.0, 0.0}, {2.0, 0.0, 0.0}), kick({2.0, 4.0, 0.3}, {-1.0, 1.5, 1.0}),
                               kick({4.0, -6.0, 0.9}, {0.0, -1.0, -2.0}), kick({0.0, 8.5, 0.0}, {0.5, 0.0, 0.0})}) {
     const std::string svg = to_svg(picture);
-    const Scale scale(svg);
+    const DrawnScale scale(svg);
     const auto crossing =
         kicking::predict_crossing(picture.robot, picture.twist, picture.kick, 9.0, picture.ball.radius_m);
     ASSERT_TRUE(crossing);
@@ -102,7 +102,7 @@ TEST(KickPicture, FromTheSideTheBallCrossesAtItsHeightUnderTheBar) {
 TEST(KickPicture, BehindItsFirstTouchOfTheFloorTheWayIsDotted) {
   const KickPicture picture = kick({0.0, -2.0, 0.0}, {0.0, 0.0, 0.0});
   const std::string svg = to_svg(picture);
-  const Scale scale(svg);
+  const DrawnScale scale(svg);
   const double v = picture.kick.v_kick_mps, range_m = v * v * std::sin(kicking::radians(2.0 * 36.78)) / 9.81;
   EXPECT_NEAR(circles(svg, "touch c6").at(0).y, scale.middle.y + scale.px_per_m * (11.0 - 0.27 - range_m), 1.0);
   EXPECT_EQ(lines(svg, "c6 d2").size(), 3u);
@@ -113,7 +113,7 @@ TEST(KickPicture, TheSegmentsAreThoseOfTheAlignment) {
   EXPECT_THAT(to_svg(kick({-1.6, 3.0, 0.0}, {2.0, 0.0, 0.0})), HasSubstr("The segments meet: aligned."));
   const std::string beside = to_svg(kick({-1.6, 3.0, 0.0}, {0.0, 0.0, 0.0}));
   EXPECT_THAT(beside, HasSubstr("The segments do not meet: not aligned."));
-  const Scale scale(beside);
+  const DrawnScale scale(beside);
   const auto target = lines(beside, "c4 wide").at(0);
   EXPECT_NEAR(std::hypot(target.at(1).x - target.at(0).x, target[1].y - target[0].y), 1.6 * scale.px_per_m, 0.2);
 }

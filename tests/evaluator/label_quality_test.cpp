@@ -89,10 +89,10 @@ TEST_F(LabelQualityOfALog, CompareBoundsWhatTheLabelsGetWrong) {
   match.close();
   std::string by;
   const auto comparison = compare_policies(read_log_kicks({path()}, {}, by), by);
-  ASSERT_TRUE(comparison.groups[0].efficiency_bounds);
-  EXPECT_NEAR(comparison.groups[0].efficiency_bounds->lo, 0.4, 1e-12) << "0.2 expected: one may be";
-  EXPECT_NEAR(comparison.groups[0].efficiency_bounds->hi, 0.6, 1e-12);
-  EXPECT_FALSE(comparison.groups[1].efficiency_bounds) << "nothing is in doubt";
+  ASSERT_TRUE(comparison.groups[0].is_bounded());
+  EXPECT_NEAR(comparison.groups[0].efficiency_bounds().lo, 0.4, 1e-12) << "0.2 expected: one may be";
+  EXPECT_NEAR(comparison.groups[0].efficiency_bounds().hi, 0.6, 1e-12);
+  EXPECT_FALSE(comparison.groups[1].is_bounded()) << "nothing is in doubt";
   EXPECT_NEAR(comparison.pairs[0].bounds.lo, 0.2, 1e-12);
   EXPECT_NEAR(comparison.pairs[0].bounds.hi, 0.4, 1e-12);
   EXPECT_THAT(to_text(comparison), HasSubstr("0.4 labels are expected to be wrong"));

@@ -7,8 +7,8 @@
 
 #include "evaluator/counting/log_kicks.hpp"
 #include "evaluator/counting/named_kicks.hpp"
-#include "evaluator/learning/predicted_kicks.hpp"
-#include "evaluator/sessions/hand_labels.hpp"
+#include "evaluator/learning/learned_fit.hpp"
+#include "evaluator/sessions/label_quality.hpp"
 #include "evaluator/sessions/session_notes.hpp"
 #include "evaluator/table2/table2.hpp"
 #include "log/merge/merge.hpp"

@@ -9,7 +9,7 @@
 
 #include "evaluator/sessions/merge_report.hpp"
 #include "evaluator/table2/table2.hpp"
-#include "log/file/stoppable.hpp"
+#include "log/file/new_file.hpp"
 #include "log/schema/row_digest.hpp"
 #include "log/write/additions.hpp"
 #include "tests/evaluator/match_fixture.hpp"

@@ -1,4 +1,4 @@
-#include "evaluator/learning/predicted_kicks.hpp"
+#include "evaluator/learning/learned_fit.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>

@@ -6,8 +6,8 @@
 #include <regex>
 #include <sstream>
 
-#include "evaluator/render/escaped_text.hpp"
 #include "evaluator/render/gate.hpp"
+#include "evaluator/render/text_table.hpp"
 #include "evaluator/table2/report_parts.hpp"
 #include "kicking/text/printable.hpp"
 

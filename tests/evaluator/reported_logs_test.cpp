@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluator/counting/policy_order.hpp"
-#include "evaluator/table2/report_sentences.hpp"
+#include "evaluator/table2/report_parts.hpp"
 #include "evaluator/table2/table2.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"

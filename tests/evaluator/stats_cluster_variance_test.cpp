@@ -1,4 +1,4 @@
-#include "evaluator/stats/cluster_variance.hpp"
+#include "evaluator/stats/clustered.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "evaluator/stats/bayes.hpp"
+#include "evaluator/stats/counts/exact.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 #include "evaluator/stats/counts/label_doubt.hpp"
-#include "evaluator/stats/counts/robustness.hpp"
-#include "evaluator/stats/counts/verdict.hpp"
 #include "evaluator/stats/poisson.hpp"
 #include "evaluator/stats/test_plan.hpp"
 

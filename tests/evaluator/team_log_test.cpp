@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "evaluator/imports/possessions.hpp"
+#include "evaluator/imports/play_statistics.hpp"
 #include "evaluator/imports/record_times.hpp"
 #include "tests/evaluator/team_log_writing.hpp"
 

@@ -1,4 +1,4 @@
-#include "evaluator/counting/truth_count.hpp"
+#include "evaluator/counting/log_minutes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 
 #include "monitor/network/gather.hpp"
-#include "monitor/network/probes.hpp"
 
 namespace trivela::monitor::network {
 namespace {

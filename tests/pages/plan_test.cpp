@@ -1,4 +1,4 @@
-#include "pages/lob/plan.hpp"
+#include "pages/lob/lob_session.hpp"
 
 #include <gmock/gmock.h>
 

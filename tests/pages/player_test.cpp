@@ -1,4 +1,4 @@
-#include "pages/lob/player.hpp"
+#include "pages/lob/replay_scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pages/monitor/running_table.hpp"
+#include "pages/monitor/kick_ledger.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "pages/serve/token.hpp"
+#include "pages/serve/site.hpp"
 
 #include <gmock/gmock.h>
 #include <stdlib.h>

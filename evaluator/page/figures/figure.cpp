@@ -33,13 +33,6 @@ std::string titled(const std::string& words, const std::string& mark, const std:
   return fmt::format("<g{}><title>{}</title>{}</g>\n", attributes, html(words), mark);
 }
 
-std::string tick_text(double value) { return fmt::format("{:.6g}", std::abs(value) < 1e-9 ? 0.0 : value); }
-
-Axis axis(double low, double high, double from_px, double to_px, const std::string& label) {
-  const auto ticks = round_ticks(low, high);
-  return {{ticks.front(), ticks.back(), from_px, to_px}, ticks, label};
-}
-
 std::string axes(const Axis& x, const Axis& y) {
   std::string svg;
   const double bottom = y.scale.from_px, top = y.scale.to_px, left = x.scale.from_px, right = x.scale.to_px;
@@ -90,6 +83,32 @@ std::string interval_plot(IntervalPlot plot) {
   }
   plot.head.height = bottom + 48.0;
   return figure(plot.head, svg, plot.note);
+}
+
+void HeatMap::add(double x_m, double y_m) {
+  ++cells_[{std::lround(std::floor(x_m / cell_m_)), std::lround(std::floor(y_m / cell_m_))}];
+}
+
+std::size_t HeatMap::fullest() const {
+  std::size_t most = 0;
+  for (const auto& [cell, n] : cells_) most = std::max(most, n);
+  return most;
+}
+
+std::string HeatMap::draw(const std::string& kind, const Scale& x, const Scale& y) const {
+  const auto most = static_cast<double>(fullest());
+  std::string svg;
+  for (const auto& [cell, n] : cells_) {
+    const double left = cell_m_ * static_cast<double>(cell.first);
+    const double low = cell_m_ * static_cast<double>(cell.second);
+    const double width = x.length_px(cell_m_), height = -y.length_px(cell_m_);
+    const double share = std::sqrt(static_cast<double>(n) / most);
+    svg += titled(counted(static_cast<std::int64_t>(n), "kick", "kicks"),
+                  fmt::format("<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+                              "fill-opacity=\"{:.2f}\"/>",
+                              kind, x.px(left), y.px(low + cell_m_), width, height, 0.12 + 0.88 * share));
+  }
+  return svg;
 }
 
 }  // namespace trivela::evaluator::page

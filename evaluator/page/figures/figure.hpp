@@ -1,9 +1,11 @@
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "evaluator/render/svg_style.hpp"
+#include "evaluator/render/svg_chart.hpp"
 
 namespace trivela::evaluator::page {
 
@@ -23,23 +25,6 @@ std::string figure(const FigureHead& head, const std::string& marks, const std::
 
 /// A mark with words for who points at it: <g class="kind" ...><title>...</title>mark</g>.
 std::string titled(const std::string& words, const std::string& mark, const std::string& attributes = "");
-
-/// Linear: values to pixels.
-struct Scale {
-  double from = 0.0, to = 1.0;
-  double from_px = 0.0, to_px = 1.0;
-
-  double px(double value) const { return from_px + (to_px - from_px) * (value - from) / (to - from); }
-  double length_px(double value) const { return px(from + value) - from_px; }
-};
-
-/// A scale over round numbers that `low` and `high` lie within, and these numbers.
-struct Axis {
-  Scale scale;
-  std::vector<double> ticks;
-  std::string label;  ///< with its unit
-};
-Axis axis(double low, double high, double from_px, double to_px, const std::string& label);
 
 /// Grid, numbers and labels of two axes; x runs along the bottom.
 std::string axes(const Axis& x, const Axis& y);
@@ -68,7 +53,21 @@ struct IntervalPlot {
 };
 std::string interval_plot(IntervalPlot plot);
 
-/// A number without trailing zeros: "0.3", "-2".
-std::string tick_text(double value);
+/// Counts of points in square cells, where there are too many points to draw.
+class HeatMap {
+ public:
+  explicit HeatMap(double cell_m) : cell_m_(cell_m) {}
+
+  void add(double x_m, double y_m);
+
+  /// Cells as squares of class `kind`, the fuller the less transparent; y upwards by `y`.
+  std::string draw(const std::string& kind, const Scale& x, const Scale& y) const;
+
+  std::size_t fullest() const;
+
+ private:
+  double cell_m_;
+  std::map<std::pair<long, long>, std::size_t> cells_;
+};
 
 }  // namespace trivela::evaluator::page

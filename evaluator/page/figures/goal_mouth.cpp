@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "evaluator/page/figures/figure.hpp"
-#include "evaluator/page/figures/heat_map.hpp"
 #include "evaluator/page/figures/outcome_kind.hpp"
 #include "evaluator/page/html.hpp"
 #include "evaluator/page/report_page.hpp"

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "evaluator/page/figures/figure.hpp"
-#include "evaluator/page/figures/heat_map.hpp"
 #include "evaluator/page/figures/outcome_kind.hpp"
 #include "evaluator/page/html.hpp"
 #include "evaluator/page/report_page.hpp"

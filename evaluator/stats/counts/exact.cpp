@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "evaluator/stats/counts/interval.hpp"
+
 namespace trivela::evaluator::stats {
 namespace {
 
@@ -125,6 +127,28 @@ std::vector<std::int64_t> rejection_region(std::int64_t n1, std::int64_t n2, dou
   return largest_old;
 }
 
+// The least number of flips, from 1 to `most`, with which the table is not significant; p grows up to where both are
+// alike.
+template <typename Flipped>
+std::int64_t flips(std::int64_t most, double alpha, Flipped p_after) {
+  std::int64_t lo = 1, hi = most;
+  while (lo < hi) {
+    const std::int64_t mid = lo + (hi - lo) / 2;
+    if (p_after(mid) >= alpha) {
+      hi = mid;
+    } else {
+      lo = mid + 1;
+    }
+  }
+  return lo;
+}
+
+// Flips that make a group as good as the other, rounded up.
+std::int64_t to_alike(Counts from, Counts to) {
+  const double wanted = *efficiency(to) * static_cast<double>(from.n);
+  return static_cast<std::int64_t>(std::ceil(std::abs(wanted - static_cast<double>(from.inside))));
+}
+
 }  // namespace
 
 double fisher_one_sided(Counts older, Counts newer) {
@@ -176,6 +200,23 @@ std::optional<double> boschloo_two_sided_doubled(Counts older, Counts newer) {
   const auto worse = boschloo_one_sided(newer, older);
   if (!better || !worse) return std::nullopt;
   return std::min(1.0, 2.0 * std::min(*better, *worse));
+}
+
+std::optional<Fragility> fragility(Counts older, Counts newer, double alpha) {
+  if (fisher_two_sided(older, newer) >= alpha) return std::nullopt;
+  const std::int64_t sign = *efficiency(newer) > *efficiency(older) ? 1 : -1;
+  return Fragility{flips(to_alike(newer, older), alpha,
+                         [&](std::int64_t k) {
+                           return fisher_two_sided(older, {newer.inside - sign * k, newer.n});
+                         }),
+                   flips(to_alike(older, newer), alpha, [&](std::int64_t k) {
+                     return fisher_two_sided({older.inside + sign * k, older.n}, newer);
+                   })};
+}
+
+double e_value(double risk_ratio) {
+  const double rr = risk_ratio < 1.0 ? 1.0 / risk_ratio : risk_ratio;
+  return rr + std::sqrt(rr * (rr - 1.0));
 }
 
 }  // namespace trivela::evaluator::stats

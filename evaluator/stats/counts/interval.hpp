@@ -3,9 +3,25 @@
 #include <optional>
 
 #include "evaluator/stats/counts/counts.hpp"
-#include "evaluator/stats/counts/quantile.hpp"
 
 namespace trivela::evaluator::stats {
+
+inline constexpr double kConfidence = 0.95;  ///< of every interval unless told otherwise
+
+/// z = Phi^-1((1 + confidence) / 2) of the standard normal distribution.
+double z_of(double confidence);
+
+/// The same of Student's distribution with `df` > 0 degrees of freedom, which need not be whole.
+double t_of(double confidence, double df);
+
+/// 2 (1 - Phi(|z|)).
+double two_sided_p(double z);
+
+/// The same of Student's distribution.
+double student_p(double t, double df);
+
+/// P(X > statistic) of the chi-square distribution with `df` > 0 degrees of freedom.
+double chi_square_p(double statistic, double df);
 
 /// Wilson's score interval of a proportion (Wilson 1927), without continuity correction, with z = Phi^-1((1 + c) / 2):
 /// (k + z^2/2 -+ z sqrt(k (n - k) / n + z^2 / 4)) / (n + z^2). No kick: [0, 1].
@@ -35,5 +51,24 @@ std::optional<Ratio> risk_ratio(Counts older, Counts newer, double confidence = 
 /// Sample odds ratio with Woolf's interval on the logarithm, variance the sum of 1 / cell (Woolf 1955).
 /// None: one of the four cells is empty.
 std::optional<Ratio> odds_ratio(Counts older, Counts newer, double confidence = kConfidence);
+
+inline constexpr double kSmallestEffect = 0.05;  ///< smallest difference of interest, where nobody names another
+
+/// What an interval of newer - older says against 0 and the smallest effect of interest.
+enum class Verdict {
+  kBetter,               ///< all of it above the smallest effect
+  kBetterMaybeTooSmall,  ///< above 0, but perhaps below the smallest effect
+  kEquivalent,           ///< within the smallest effect on either side, whether or not it holds 0
+  kWorse,                ///< below 0, and perhaps by more than the smallest effect
+  kNotEnoughData,        ///< it holds 0 and differences of interest
+};
+
+inline Verdict verdict(Interval interval, double smallest_effect = kSmallestEffect) {
+  if (interval.lo > -smallest_effect && interval.hi < smallest_effect) return Verdict::kEquivalent;
+  if (interval.lo > smallest_effect) return Verdict::kBetter;
+  if (interval.lo > 0.0) return Verdict::kBetterMaybeTooSmall;
+  if (interval.hi < 0.0) return Verdict::kWorse;
+  return Verdict::kNotEnoughData;
+}
 
 }  // namespace trivela::evaluator::stats
