@@ -9,7 +9,7 @@
 
 namespace trivela::kicking {
 
-/// A output with the target and the numbers of the shot; nothing decided yet.
+/// An output with the target and the numbers of the shot; nothing decided yet.
 inline PolicyOutput describe(const PolicyConfig& config, const Goal& goal, const ShotNumbers& shot) {
   PolicyOutput output;
   output.target_x_m = config.target_x_m;

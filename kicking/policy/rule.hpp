@@ -108,11 +108,11 @@ Maybe predicted(const PolicyOutput& output) {
   return output.predicted ? Maybe((*output.predicted).*number) : std::nullopt;
 }
 
-/// A part of a output that is recorded, by its name in the messages. A new field of PolicyOutput stands below, too.
+/// A part of an output that is recorded, by its name in the messages. A new field of PolicyOutput stands below, too.
 template <class Get>
 struct RecordedField {
   std::string_view name;
-  Get get;  ///< for std::invoke, with a output
+  Get get;  ///< for std::invoke, with an output
 };
 template <class Get>
 RecordedField(std::string_view, Get) -> RecordedField<Get>;
