@@ -1,6 +1,7 @@
 #include "python/cycle.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -14,7 +15,8 @@ namespace {
 
 Reason reason_named(const std::string& text) {
   const auto found = std::ranges::find(kReasonNames, text);
-  if (found == kReasonNames.end()) throw py::value_error(fmt::format("'{}' is no reason", text));
+  if (found == kReasonNames.end())
+    throw py::value_error(fmt::format("'{}' is no reason; there are {}", text, fmt::join(kReasonNames, ", ")));
   return static_cast<Reason>(found - kReasonNames.begin());
 }
 
@@ -24,8 +26,7 @@ std::optional<double> of(Maybe number) { return number; }
 
 void add_output(py::module_& module) {
   using Output = PolicyOutput;
-  std::string reasons;
-  for (const char* reason : kReasonNames) reasons += fmt::format("{}{}", reasons.empty() ? "" : ", ", reason);
+  const std::string reasons = fmt::format("{}", fmt::join(kReasonNames, ", "));
   py::class_<Output> output(module, "Output",
                             "What a policy decides in a cycle. `reason`, `power`, `kick_kind`, `lever_kind` and the "
                             "drive act; the other numbers are recorded.");

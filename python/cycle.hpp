@@ -87,7 +87,7 @@ struct Cycle {
   double setting(const std::string& key) const {
     require_now();
     const auto found = settings->find(key);
-    if (found == settings->end()) throw py::key_error(key);
+    if (found == settings->end()) throw py::key_error("the policy has no setting " + key);
     return found->second;
   }
 };

@@ -25,6 +25,7 @@ class PythonPolicy final : public PolicyOf<PythonMemory> {
 
   const Settings& described() const { return settings_of_; }
   void replace(const py::function& evaluate) {
+    if (evaluate.ptr() == evaluate_) return;
     evaluate_ = py::function(evaluate).release().ptr();
     code_ = log::make_uuid();
   }

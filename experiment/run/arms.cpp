@@ -1,6 +1,7 @@
 #include "experiment/run/arms.hpp"
 
 #include <fmt/format.h>
+#include <link.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "config/text/installation.hpp"
 #include "config/text/open_file.hpp"
 #include "experiment/play/play_match.hpp"
+#include "kicking/text/nearest_word.hpp"
 #include "log/schema/digest.hpp"
 #include "robot/recording/session_text.hpp"
 
@@ -29,7 +31,12 @@ config::ArmFields arm_named(const std::string& name, const std::string& called) 
   const std::string policy = name.substr(0, at);
   if (at != std::string::npos) arm.table = name.substr(at + 1);
   arm.policy = kicking::policy_named(policy);
-  if (!arm.policy) throw BadArgument{fmt::format("{}: \"{}\" is no policy", called, policy)};
+  if (!arm.policy) {
+    const auto meant =
+        kicking::nearest_word(policy, kicking::policies_where([](const auto& facts) { return facts.plays(); }));
+    throw BadArgument{fmt::format("{}: \"{}\" is no policy{}", called, policy,
+                                  meant ? fmt::format("; did you mean {}?", *meant) : "")};
+  }
   if (arm.table != kNewTable && arm.table != kOldTable)
     throw BadArgument{fmt::format("{}: \"{}\": a table is new or old", called, name)};
   return arm;
@@ -108,12 +115,26 @@ Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
   return arm;
 }
 
-/// What tells the policy's rule from a changed one.
+std::string file_bytes(const char* path) {
+  std::ifstream file{path, std::ios::binary};
+  return {std::istreambuf_iterator<char>{file}, {}};
+}
+
+/// What tells the policy's rule from a changed one: of its own, else the program and the libraries that it loaded, but
+/// for the system's.
 std::string code_of(const kicking::Policy& policy) {
   if (std::string code = policy.code(); !code.empty()) return code;
   static const std::string program = [] {
-    std::ifstream file{"/proc/self/exe", std::ios::binary};
-    return log::sha256(std::string(std::istreambuf_iterator<char>{file}, {}));
+    std::string files = file_bytes("/proc/self/exe");
+    dl_iterate_phdr(
+        [](dl_phdr_info* loaded, std::size_t, void* all) {
+          const std::string_view library = loaded->dlpi_name;
+          const bool system = library.starts_with("/usr/lib/") || library.starts_with("/lib");
+          if (library.starts_with('/') && !system) *static_cast<std::string*>(all) += file_bytes(loaded->dlpi_name);
+          return 0;
+        },
+        &files);
+    return log::sha256(files);
   }();
   return program;
 }

@@ -65,7 +65,10 @@ void refuse_nonsense(const PolicyConfig& config, const RobotModel& robot, Policy
     numbers = false;
     *number = 0.0;
   }
-  if (output.reason == Reason::kFire && (!numbers || !output.power || output.kick_kind >= robot.kinds()))
+  for (Maybe* const p : {&output.p_on_target, &output.p_goal})
+    if (*p && !(**p >= 0.0 && **p <= 1.0)) *p = std::nullopt;
+  const bool in_cycle = output.fire_after_s >= 0.0 && output.fire_after_s <= config.cycle_s;
+  if (output.reason == Reason::kFire && (!numbers || !in_cycle || !output.power || output.kick_kind >= robot.kinds()))
     output.reason = Reason::kOutOfRange;
   if (output.lever_kind >= robot.kinds()) output.lever_kind = 0;
   Twist& drive = output.drive;
@@ -82,6 +85,8 @@ PolicyOutput asked(const Policy& policy, const PolicyConfig& config, const Robot
 } catch (const std::exception& error) {
   if (policy.place() == kNoPlace || policy.facts().needs_program()) throw;
   std::throw_with_nested(std::runtime_error("policy " + std::string{policy.facts().name} + ": " + error.what()));
+} catch (...) {
+  throw std::runtime_error("policy " + std::string{policy.facts().name} + ": threw something else than an exception");
 }
 
 /// The policy's own rule, within what holds for every policy.

@@ -55,7 +55,7 @@ class Policy {
   /// Of its settings in PolicyConfig::own; kNoPlace: it is a row of kPolicyRows.
   std::size_t place() const { return place_; }
   /// What tells its rule from a changed one: an experiment that was begun with one does not go on with the other.
-  /// Empty: the program's file does.
+  /// Empty: the program does, with the libraries that it has loaded.
   virtual std::string code() const { return {}; }
 
   virtual std::unique_ptr<PossessionMemory> new_memory() const = 0;

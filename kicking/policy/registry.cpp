@@ -24,6 +24,9 @@ class RulePolicy final : public PolicyOf<Memory> {
   Rule<Memory>* rule_;
 };
 
+/// "all" is every policy in gates, "own" any policy from outside on the bus.
+constexpr std::array<std::string_view, 2> kReserved{"all", "own"};
+
 void check_name(const std::string& called, const std::string& name) {
   const auto fits = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
   const bool right =
@@ -76,7 +79,8 @@ class PolicyRegistry {
 
   PolicyName add(std::unique_ptr<Policy> policy) {
     check_name("policy", policy->facts().name);
-    if (find(policy->facts().name) != nullptr)
+    if (find(policy->facts().name) != nullptr ||
+        std::ranges::count(kReserved, std::string_view{policy->facts().name}) > 0)
       throw std::invalid_argument("policy \"" + std::string{policy->facts().name} + "\": the name is taken");
     check_settings(*policy);
     policy->place_ = all_.size() - kPolicyCount;

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -80,6 +81,20 @@ fs::path beside(const fs::path& path, const char* suffix) {
   fs::path other = path;
   other += suffix;
   return other;
+}
+
+FileTaken other_arguments(const std::filesystem::path& path, const std::string& what, const std::string& begun,
+                          const std::string& asked) {
+  std::istringstream there{begun}, here{asked};
+  std::string theirs, ours;
+  do {
+    if (!std::getline(there, theirs)) theirs.clear();
+    if (!std::getline(here, ours)) ours.clear();
+  } while (theirs == ours && (there || here));
+  return FileTaken(
+      fmt::format("{}: was begun with other arguments: \"{}\" there, \"{}\" here; {} goes on with its own "
+                  "alone, choose another file",
+                  path.string(), theirs, ours, what));
 }
 
 bool is_busy(const SQLite::Exception& error) { return (error.getErrorCode() & 0xFF) == SQLITE_BUSY; }

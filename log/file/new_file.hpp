@@ -19,6 +19,10 @@ struct FileTaken : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// That `path`, of `what` ("an experiment"), was begun with other arguments; the first line of them that differs.
+FileTaken other_arguments(const std::filesystem::path& path, const std::string& what, const std::string& begun,
+                          const std::string& asked);
+
 /// Does another process hold the file?
 bool is_busy(const SQLite::Exception& error);
 

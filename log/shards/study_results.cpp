@@ -45,13 +45,13 @@ std::unique_ptr<SQLite::Database> resume(const fs::path& path, const StudyPlan& 
         database->execAndGet("PRAGMA user_version").getInt() != kStudyResults.version)
       throw taken_file(path, "is there already and has no study results of this version; choose another file");
     check_schema(*database, kStudyResults, path.string());
-    SQLite::Statement known(*database, "SELECT arguments_sha256, matches FROM studies");
-    if (!known.executeStep() || known.getColumn(0).getString() != sha256(arguments_of(plan)) ||
-        known.getColumn(1).getInt64() != plan.range().size())
-      throw taken_file(
-          path,
-          "was begun with other arguments or other code of a policy (table studies says which); a study goes on "
-          "with its own alone, choose another file");
+    SQLite::Statement known(*database, "SELECT arguments, matches FROM studies");
+    const bool begun = known.executeStep();
+    const std::string arguments = begun ? known.getColumn(0).getString() : "";
+    if (arguments != arguments_of(plan)) throw other_arguments(path, "a study", arguments, arguments_of(plan));
+    if (const std::int64_t matches = known.getColumn(1); matches != plan.range().size())
+      throw other_arguments(path, "a study", fmt::format("matches = {}", matches),
+                            fmt::format("matches = {}", plan.range().size()));
     return database;
   } catch (const SQLite::Exception& error) {
     if (is_busy(error)) throw taken_file(path, "another run writes to it");

@@ -60,15 +60,13 @@ void make(const fs::path& path, const Experiment& experiment) {
 
 /// Throws unless the log is that of the experiment.
 void check(SQLite::Database& database, const fs::path& path, const Experiment& experiment) {
-  SQLite::Statement known(database, "SELECT arguments_sha256, matches FROM experiments");
+  SQLite::Statement known(database, "SELECT arguments, matches FROM experiments");
   if (!known.executeStep()) throw taken(path, "is a recorded match and no experiment; choose another file");
-  if (known.getColumn(0).getString() != sha256(experiment.arguments) ||
-      known.getColumn(1).getInt64() != experiment.matches) {
-    throw taken(
-        path,
-        "was begun with other arguments or other code of a policy (table experiments says which); an experiment "
-        "goes on with its own alone, choose another file");
-  }
+  if (const std::string begun = known.getColumn(0); begun != experiment.arguments)
+    throw other_arguments(path, "an experiment", begun, experiment.arguments);
+  if (const std::int64_t matches = known.getColumn(1); matches != experiment.matches)
+    throw other_arguments(path, "an experiment", fmt::format("matches = {}", matches),
+                          fmt::format("matches = {}", experiment.matches));
 }
 
 /// The log of a run that was stopped, or has just begun.

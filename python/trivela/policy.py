@@ -31,6 +31,16 @@ def register_policy(
     What holds for every policy stays around it: no kick while the game stands, without the ball, with the kicker not ready.
     The same name again replaces the function, as a notebook does; its settings cannot change.
 
+    `evaluate` must depend on its arguments alone: no clock and no random numbers, or the same call gives other rows.
     What `evaluate` raises ends the play and is raised by `simulate`. Raises ValueError for a name or settings that cannot be.
     """
-    _trivela.register_policy(name, {key: tuple(values) for key, values in (settings or {}).items()}, evaluate)
+    if not callable(evaluate):
+        raise ValueError(f"policy {name}: evaluate is no function")
+    numbers: dict[str, tuple[float, ...]] = {}
+    for key, values in dict(settings or {}).items():
+        try:
+            usual, least, most = values
+            numbers[key] = (float(usual), float(least), float(most))
+        except (TypeError, ValueError):
+            raise ValueError(f"policy {name}: setting {key}: {values!r} is not (usual value, least, most)") from None
+    _trivela.register_policy(str(name), numbers, evaluate)

@@ -76,6 +76,8 @@ TEST_F(OwnPolicy, ProgramsWithoutItReadItsSettingsAndRefuseToPlayIt) {
               HasSubstr("policy.own.patient.near_m = 21: must lie in [0, 20]"));
   EXPECT_THAT(refusal("trivela", {"simulate", "--arms", "patient", "--out", "x.db"}, 2),
               HasSubstr("\"patient\" is no policy"));
+  EXPECT_THAT(refusal(TRIVELA_PATIENT, {"simulate", "--arms", "pateint", "--out", "x.db"}, 2),
+              HasSubstr("\"pateint\" is no policy; did you mean patient?"));
   std::ofstream{folder_ / "capital.toml"} << "[policy.own.Patient]\nnear_m = 4.0\n";
   EXPECT_THAT(refusal("trivela-kick_decision", {"--config", "capital.toml"}, 1), HasSubstr("1 to 31 of a-z"));
 }
@@ -89,11 +91,11 @@ TEST_F(OwnPolicy, AnExperimentGoesOnWithTheSameCodeAlone) {
   const auto changed = folder_ / "changed";
   std::filesystem::copy_file(TRIVELA_PATIENT, changed);
   std::ofstream{changed, std::ios::app} << "other code";
-  EXPECT_THAT(refusal(changed, arguments, 2), HasSubstr("was begun with other arguments or other code of a policy"));
+  EXPECT_THAT(refusal(changed, arguments, 2), HasSubstr("was begun with other arguments: \"code of patient = "));
   const std::vector<std::string> study{"study", "arms",          "--arms", "moving,patient", "--matches",
                                        "2",     "--possessions", "3",      "--results",      "r.db"};
   patient(study);
-  EXPECT_THAT(refusal(changed, study, 2), HasSubstr("other code of a policy"));
+  EXPECT_THAT(refusal(changed, study, 2), HasSubstr("\"code of patient = "));
 }
 
 TEST_F(OwnPolicy, ANameThatIsMistypedOnTheCommandLineIsRefused) {

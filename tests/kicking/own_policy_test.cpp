@@ -117,6 +117,10 @@ TEST(OwnPolicy, ThatReturnsNonsenseNeitherKicksNorDrives) {
   EXPECT_EQ(said([](PolicyOutput& out) { out.power = std::numeric_limits<double>::infinity(); }).reason,
             Reason::kOutOfRange);
   EXPECT_EQ(said([](PolicyOutput& out) { out.kick_kind = 200; }).reason, Reason::kOutOfRange);
+  for (const double after_s : {1e9, -3.0})
+    EXPECT_EQ(said([&](PolicyOutput& out) { out.fire_after_s = after_s; }).reason, Reason::kOutOfRange);
+  for (Maybe PolicyOutput::*p : {&PolicyOutput::p_on_target, &PolicyOutput::p_goal})
+    EXPECT_FALSE(said([&](PolicyOutput& out) { out.*p = 9.0; }).*p);
   for (double PolicyOutput::*number :
        {&PolicyOutput::target_x_m, &PolicyOutput::target_y_m, &PolicyOutput::target_z_m, &PolicyOutput::alpha_rad,
         &PolicyOutput::beta_rad, &PolicyOutput::fire_after_s}) {
@@ -140,8 +144,9 @@ TEST(OwnPolicy, ThatReturnsNonsenseNeitherKicksNorDrives) {
 TEST(OwnPolicy, ThatThrowsIsNamedAndItsExceptionKept) {
   struct Throwing final : PolicyOf<PossessionMemory> {
     Throwing() : PolicyOf("throwing") {}
-    PolicyOutput evaluate(const PolicyConfig&, const RobotModel&, const Goal&, const PolicyInput&,
+    PolicyOutput evaluate(const PolicyConfig&, const RobotModel&, const Goal& goal, const PolicyInput&,
                           PossessionMemory&) const override {
+      if (goal.y_m < 0.0) throw 42;
       throw std::out_of_range("no such corner");
     }
   };
@@ -154,6 +159,8 @@ TEST(OwnPolicy, ThatThrowsIsNamedAndItsExceptionKept) {
     EXPECT_STREQ(error.what(), "policy throwing: no such corner");
     EXPECT_THROW(std::rethrow_if_nested(error), std::out_of_range);
   }
+  EXPECT_THAT([&] { evaluate(throwing, {}, {}, {.y_m = -1.0}, ready(), memory); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("policy throwing: threw something else than an exception")));
 }
 
 TEST(OwnPolicy, AMemoryIsCopiedWithWhatItHolds) {
@@ -181,7 +188,7 @@ TEST(OwnPolicy, IsRefusedWithANameOrSettingsThatCannotBe) {
   eager();
   for (const char* const name : {"", "Eager", "1st", "with space", "a_name_of_more_than_31_characters"})
     EXPECT_THAT([&] { register_policy(std::make_unique<Eager>(name)); }, refused("1 to 31 of a-z, 0-9 and _")) << name;
-  for (const char* const taken : {"eager", "moving", "oracle"})
+  for (const char* const taken : {"eager", "moving", "oracle", "all", "own"})
     EXPECT_THAT([&] { register_policy(std::make_unique<Eager>(taken)); }, refused("the name is taken")) << taken;
   const auto with = [](const std::vector<PolicySetting>& settings) {
     return [settings] { register_policy(std::make_unique<Wrong>(settings, "wrong")); };

@@ -88,11 +88,13 @@ def test_what_it_raises_ends_the_play_and_is_raised(tmp_path):
 
 
 def test_a_log_goes_on_with_the_same_function_alone(tmp_path):
-    trivela.register_policy("steady", lambda cycle, memory: cycle.moving())
+    rule = lambda cycle, memory: cycle.moving()
+    trivela.register_policy("steady", rule)
     rows = trivela.simulate("steady,moving", **SMALL, out=tmp_path / "ab.db")
+    trivela.register_policy("steady", rule)
     assert trivela.simulate("steady,moving", **SMALL, out=tmp_path / "ab.db").tobytes() == rows.tobytes()
     trivela.register_policy("steady", lambda cycle, memory: cycle.stopped())
-    with pytest.raises(RuntimeError, match="was begun with other arguments or other code of a policy"):
+    with pytest.raises(RuntimeError, match="was begun with other arguments: \"code of steady"):
         trivela.simulate("steady,moving", **SMALL, out=tmp_path / "ab.db")
 
 
@@ -129,7 +131,7 @@ def test_outputs_that_cannot_be_are_refused_in_a_sentence():
         trivela.simulate("powerless", **SMALL)
     with pytest.raises(TypeError, match="policy nothing: evaluate\\(\\) must return an Output"):
         trivela.simulate("nothing", **SMALL)
-    with pytest.raises(ValueError, match="'fly' is no reason"):
+    with pytest.raises(ValueError, match="'fly' is no reason; there are fire, not_playing, "):
         trivela.Output().reason = "fly"
     trivela.simulate("keeps", matches=1, possessions=1)
     with pytest.raises(ValueError, match="a cycle is known while evaluate\\(\\) is asked"):
@@ -145,6 +147,11 @@ def test_names_and_settings_that_cannot_be_are_refused():
             trivela.register_policy(name, rule)
     with pytest.raises(ValueError, match="its usual value is not in its range"):
         trivela.register_policy("beyond", rule, {"x": (2.0, 0.0, 1.0)})
+    for values in ((1.0, 0.0), 1.0, ("a", 0.0, 1.0)):
+        with pytest.raises(ValueError, match="policy formless: setting x: .* is not \\(usual value, least, most\\)"):
+            trivela.register_policy("formless", rule, {"x": values})
+    with pytest.raises(ValueError, match="policy formless: evaluate is no function"):
+        trivela.register_policy("formless", None)
     trivela.register_policy("fixed", rule, {"x": (0.5, 0.0, 1.0)})
     with pytest.raises(ValueError, match="its settings cannot change"):
         trivela.register_policy("fixed", rule, {"y": (0.5, 0.0, 1.0)})
