@@ -27,9 +27,9 @@ InProcessRobot::InProcessRobot(const config::Settings& settings, const config::R
     : robot_(robot),
       robot_id_(robot_id),
       odometry_(robot.base, settings.odometry),
-      model_(settings.world_state, robot.model.ball_offset_m),
       decider_({settings.kick_decision, settings.policy, settings.goal}, robot_.model, robot_id, session,
                std::move(oracle)),
+      model_(settings.world_state, robot.model.ball_offset_m, decider_.reads_opponents()),
       desk_(settings.kicker_driver, settings.run.cycle_s, robot.model, robot_id, robot::DecisionNode::kThere),
       arbiter_(settings.kick_decision.drive, settings.odometry) {}
 

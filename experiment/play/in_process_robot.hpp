@@ -53,8 +53,8 @@ class InProcessRobot {
   config::Robot robot_;
   std::uint8_t robot_id_;
   robot::WheelOdometry odometry_;
-  robot::WorldModel model_;
   robot::Decider decider_;
+  robot::WorldModel model_;
   robot::KickerController desk_;
   robot::DriveArbiter arbiter_;
   robot::ObeyedDrive drive_;

@@ -31,8 +31,10 @@ PolicyRow(PolicyFacts, Rule<Memory>*) -> PolicyRow<Memory>;
 /// The policies, in the order of the wire's Policy; each rule's own file says what it does. The oracle is predictive on
 /// the simulator's true state.
 inline constexpr std::tuple kPolicyRows{
-    PolicyRow{{.name = "stopped", .kind = PolicyKind::kPlay, .rides_along = true}, evaluate_stopped},
-    PolicyRow{{.name = "moving", .kind = PolicyKind::kPlay, .rides_along = true}, evaluate_moving},
+    PolicyRow{{.name = "stopped", .kind = PolicyKind::kPlay, .rides_along = true, .reads_opponents = false},
+              evaluate_stopped},
+    PolicyRow{{.name = "moving", .kind = PolicyKind::kPlay, .rides_along = true, .reads_opponents = false},
+              evaluate_moving},
     PolicyRow{{.name = "standing_drive", .kind = PolicyKind::kDrive}, evaluate_standing_drive},
     PolicyRow{{.name = "lateral_drive", .kind = PolicyKind::kDrive}, evaluate_lateral_drive},
     PolicyRow{{.name = "turn_drive", .kind = PolicyKind::kDrive}, evaluate_turn_drive},

@@ -25,7 +25,8 @@ struct PolicyFacts {
   const char* name;  ///< in files, flags and logs, and the wire's label
   PolicyKind kind;
   PolicyNeeds needs = PolicyNeeds::kNothing;
-  bool rides_along = false;  ///< judged as a shadow while another one is in charge; the wire and the log have four
+  bool rides_along = false;     ///< judged as a shadow while another one is in charge; the wire and the log have four
+  bool reads_opponents = true;  ///< PolicyInput::opponents; a simulated robot tracks none for those that do not
 
   constexpr bool plays() const { return kind != PolicyKind::kDrive; }
   constexpr bool needs_truth() const { return needs == PolicyNeeds::kTruth; }

@@ -85,7 +85,7 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
     } else if (kicking::seconds(frame->t_exposure_ns - opponent_t_ns_) > settings_.ball_forget_s) {
       opponent_m_.reset();
     }
-    see_opponents(*frame);
+    if (tracks_opponents_) see_opponents(*frame);
     if (frame->keeper_seen) see_keeper(*frame);
   }
   if (frame) ball_.silence(kicking::seconds(odometry.t_ns - frame->t_ns));

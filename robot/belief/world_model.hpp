@@ -17,9 +17,11 @@ namespace trivela::robot {
 /// The robot's belief, made from odometry, vision and the referee: messages in, WorldState out, no bus.
 class WorldModel {
  public:
-  /// `ball_offset_m`: robot centre to the ball in the handler.
-  WorldModel(const config::WorldState& settings, double ball_offset_m)
+  /// `ball_offset_m`: robot centre to the ball in the handler. `tracks_opponents`: whether somebody reads where they
+  /// are; the distance of the nearest is known all the same.
+  WorldModel(const config::WorldState& settings, double ball_offset_m, bool tracks_opponents = true)
       : settings_(settings),
+        tracks_opponents_(tracks_opponents),
         pose_(settings),
         ball_(settings, ball_offset_m),
         velocity_decay_(settings.velocity_time_constant_s) {}
@@ -46,6 +48,7 @@ class WorldModel {
   msg::WorldState describe(std::int64_t t_ns) const;
 
   config::WorldState settings_;
+  bool tracks_opponents_;
   PoseFilter pose_;
   BallFilter ball_;
   PossessionCount possessions_;

@@ -164,6 +164,11 @@ bool Decider::awaits_outcome(const msg::WorldState& world, const msg::KickerStat
          kicker->last_kick_id == last_order_.kick_id && kicker->last_accepted;
 }
 
+bool Decider::reads_opponents() const {
+  const auto reads = [](PolicyName policy) { return facts(policy).reads_opponents; };
+  return std::ranges::any_of(assignment_.candidates(), reads) || std::ranges::any_of(shadows_, reads);
+}
+
 /// What was seen of the last order's kick, once the observer has said it.
 void Decider::see_last_kick(const std::optional<msg::KickOutcome>& outcome, kicking::PolicyInput& input) const {
   if (orders_ == 0 || !outcome || outcome->kick_id != last_order_.kick_id) return;

@@ -82,6 +82,9 @@ class Decider {
   bool awaits_outcome(const msg::WorldState& world, const msg::KickerStatus* kicker) const;
   std::int64_t last_order_t_ns() const { return last_order_.t_ns; }
 
+  /// Whether a policy that may be asked reads where the opponents are.
+  bool reads_opponents() const;
+
   std::uint32_t orders() const { return orders_; }
   const PolicyAssignment& assignment() const { return assignment_; }
 

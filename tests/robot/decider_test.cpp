@@ -100,5 +100,20 @@ TEST(Decider, ItsOwnAcceptedKickIsNoKickOfAnother) {
       << "counted from the order, not from its status";
 }
 
+TEST(Decider, SaysWhetherAPolicyThatMayBeAskedReadsWhereOpponentsAre) {
+  const config::Robot robot;
+  config::Settings settings;
+  const auto reads = [&](kicking::PolicyName policy, bool shadows) {
+    settings.kick_decision.policy_by_half = {policy};
+    settings.kick_decision.shadows = shadows;
+    return Decider{{settings.kick_decision, settings.policy, settings.goal}, robot.model, 1, kSession}
+        .reads_opponents();
+  };
+  EXPECT_FALSE(reads(kicking::PolicyName::kMoving, false));
+  EXPECT_FALSE(reads(kicking::PolicyName::kStopped, false));
+  EXPECT_TRUE(reads(kicking::PolicyName::kPredictive, false));
+  EXPECT_TRUE(reads(kicking::PolicyName::kMoving, true)) << "predictive rides along";
+}
+
 }  // namespace
 }  // namespace trivela::robot

@@ -222,6 +222,16 @@ TEST(WorldModel, MeasuresTheOpponentFromTheBall) {
   EXPECT_TRUE(std::isnan(play.cycle(25).opponent_distance_m));
 }
 
+TEST(WorldModel, WhereNobodyReadsThemNoOpponentIsTrackedButTheNearestsDistanceIsKnown) {
+  Play tracked, untracked;
+  untracked.model = WorldModel{untracked.settings, kBallOffset_m, false};
+  tracked.opponent_in_robot_m = untracked.opponent_in_robot_m = Eigen::Vector2d{1.2, kBallOffset_m + 0.5};
+  const msg::WorldState with = tracked.cycle(3), without = untracked.cycle(3);
+  EXPECT_EQ(with.opponent_count, 1);
+  EXPECT_EQ(without.opponent_count, 0);
+  EXPECT_EQ(without.opponent_distance_m, with.opponent_distance_m);
+}
+
 TEST(WorldModel, FiltersTheTwistWithItsTimeConstant) {
   Play play;
   play.cycle(5);
