@@ -66,8 +66,9 @@ void RowDigests::pour() {
 void RowDigests::add_text(std::string_view text) { bytes_.insert(bytes_.end(), text.begin(), text.end()); }
 
 void RowDigests::add_number(unsigned char tag, std::uint64_t bits) {
-  std::array<unsigned char, 9> bytes{tag};
-  for (std::size_t i = 0; i < 8; ++i) bytes[i + 1] = static_cast<unsigned char>(bits >> (56 - 8 * i));
+  bytes_.push_back(tag);
+  std::array<unsigned char, 8> bytes;
+  for (std::size_t i = 0; i < 8; ++i) bytes[i] = static_cast<unsigned char>(bits >> (56 - 8 * i));
   bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
 }
 
