@@ -60,6 +60,7 @@ void SensorSuite::remember(const World& world) {
   kept_ = std::min(kept_ + 1, past_.size());
   past_[newest_] = {world.t_ns(), world.body().pose(), world.body().axis(), world.ball_m(),
                     world.opponents().nearest().position()};
+  if (world.shot()) past_[newest_].jumping_keeper = world.shot()->jumping_keeper(world.t_ns());
   further_count_ = 0;
   const auto add = [&](const PlanPoint& place) {
     if (further_count_ < kMostFurther) past_[newest_].further[further_count_++] = place;
@@ -105,7 +106,8 @@ SensorSuite::Snapshot SensorSuite::between(const Snapshot& a, const Snapshot& b,
           {std::lerp(a.ball.x(), b.ball.x(), part), std::lerp(a.ball.y(), b.ball.y(), part),
            std::lerp(a.ball.z(), b.ball.z(), part)},
           {std::lerp(a.opponent.x_m, b.opponent.x_m, part), std::lerp(a.opponent.y_m, b.opponent.y_m, part)},
-          b.further};  // who of them is which may change between the two
+          b.further,  // who of them is which may change between the two
+          b.jumping_keeper};
 }
 
 WheelSample SensorSuite::wheels(const World& world) const {
@@ -169,7 +171,7 @@ void SensorSuite::see_further(const Snapshot& seen, VisionFrame& frame) const {
 
 std::optional<PlanPoint> SensorSuite::keeper(const Snapshot& seen, double luck) const {
   const Vision& v = scenario_.vision;
-  const PlanPoint place = keeper_place(scenario_, seen.ball);
+  const PlanPoint place = seen.jumping_keeper.value_or(keeper_place(scenario_, seen.ball));
   const PlanPoint there = in_robot(seen.pose, seen.axis, place.x_m, place.y_m);
   if (luck < v.dropout_ratio || length(there) > v.opponent_range_m) return std::nullopt;
   const auto [x, y, unused, more] = draws_.normals(kicking::Role::kKeeperSight, cycle_);

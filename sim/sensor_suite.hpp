@@ -43,6 +43,7 @@ class SensorSuite {
     Eigen::Vector3d ball{0.0, 0.0, 0.0};
     PlanPoint opponent;
     std::array<PlanPoint, kMostFurther> further{};  // of as many as the world has
+    std::optional<PlanPoint> jumping_keeper{};
   };
 
   /// One wheel of the base: what it turns at a unit of each velocity [1/m, 1/m, 1].

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "kicking/geometry/time.hpp"
-#include "sim/guard.hpp"
 
 namespace trivela::sim {
 
@@ -110,15 +109,29 @@ void Shot::meet_goal_plane(std::int64_t t_ns) {
   }
 }
 
+Misjudgement Shot::keeper_misjudges() const {
+  const auto noise = draws_.normals(kicking::Role::kKeeper, 0);
+  Misjudgement misjudged{noise[0], noise[1]};
+  const double guess_m = scenario_.keeper.guess_m;
+  if (guess_m > 0.0)
+    misjudged.guessed_m = keeper_place(scenario_, released_.position_m).x_m + std::copysign(guess_m, noise[2]);
+  return misjudged;
+}
+
 bool Shot::keeper_has(const Crossing& crossing, double flown_s) const {
   const Keeper& keeper = scenario_.keeper;
   if (!keeper.enabled) return false;
-  const auto noise = draws_.normals(kicking::Role::kKeeper, 0);
-  const double stands_m = keeper_place(scenario_, released_.position_m).x_m;
-  Misjudgement misjudged{noise[0], noise[1]};
-  if (keeper.guess_m > 0.0) misjudged.guessed_m = stands_m + std::copysign(keeper.guess_m, noise[2]);
-  return guard_stops(keeper.guard, {keeper.side_extension_m, keeper.up_extension_m, keeper.extension_s}, stands_m,
-                     {crossing, flown_s, scenario_.ball.radius_m}, misjudged);
+  return guard_stops(keeper.guard, {keeper.side_extension_m, keeper.up_extension_m, keeper.extension_s},
+                     keeper_place(scenario_, released_.position_m).x_m, {crossing, flown_s, scenario_.ball.radius_m},
+                     keeper_misjudges());
+}
+
+std::optional<PlanPoint> Shot::jumping_keeper(std::int64_t t_ns) const {
+  if (!scenario_.keeper.enabled || scenario_.keeper.guess_m == 0.0) return std::nullopt;
+  PlanPoint place = keeper_place(scenario_, released_.position_m);
+  const GuardedBall until{.crossing = {}, .flown_s = kicking::seconds(t_ns - release_t_ns_)};
+  place.x_m = guard_place_m(scenario_.keeper.guard, place.x_m, until, keeper_misjudges());
+  return place;
 }
 
 /// What the ball would come to if nobody stood in its way; none: not into the goal.

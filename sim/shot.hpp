@@ -8,6 +8,7 @@
 #include "kicking/maybe.hpp"
 #include "kicking/outcome/outcome.hpp"
 #include "kicking/random/draws.hpp"
+#include "sim/guard.hpp"
 #include "sim/kicker/flight.hpp"
 #include "sim/opponent_body.hpp"
 #include "sim/scenario.hpp"
@@ -43,6 +44,10 @@ class Shot {
   std::int64_t release_t_ns() const { return release_t_ns_; }
   const BallMotion& released() const { return released_; }
 
+  /// Where a keeper that guesses is at t_ns, on its way from the release on; none: it waits and looks, or there is
+  /// none.
+  std::optional<PlanPoint> jumping_keeper(std::int64_t t_ns) const;
+
   /// None while it is open.
   const std::optional<ShotResult>& result() const { return result_; }
 
@@ -50,6 +55,7 @@ class Shot {
   void step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents);
   BallMotion at_line(const BallMotion& before, double line_y_m, double dt_s, double& until_s) const;
   void meet_goal_plane(std::int64_t t_ns);
+  Misjudgement keeper_misjudges() const;
   bool keeper_has(const Crossing& crossing, double flown_s) const;
   void meet_keeper_before_line(const BallMotion& before, std::int64_t before_t_ns, double dt_s);
   std::optional<ShotResult> would_go_in(BallMotion ball) const;

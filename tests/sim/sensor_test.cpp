@@ -100,6 +100,57 @@ TEST(Vision, ShowsTheKeeperWhereThereIsOneAndItIsNear) {
   }
 }
 
+/// Frames of a robot that kicks at 0.1 s and stands.
+std::vector<VisionFrame> frames_of_a_kick(const Scenario& s) {
+  World world{s};
+  SensorSuite suite{s};
+  const Opportunity o = standing(0.0, 4.0, 0.0);
+  world.place(o, 1.0, kDraws);
+  suite.begin(kDraws);
+  suite.remember(world);
+  world.start_play(o);
+  world.command({.drive = {}, .fire = Fire{100'000'000, 1, 40.0}});
+  std::vector<VisionFrame> frames;
+  for (int cycle = 0; cycle < 50; ++cycle) {
+    run(world, suite, 1);
+    frames.push_back(suite.vision(world));
+  }
+  return frames;
+}
+
+TEST(Vision, ShowsAKeeperThatGuessesOnItsWayOneLatencyAgo) {
+  Scenario s = noiseless();
+  s.kicker.delay_sd_s = 0.0;
+  s.keeper.enabled = true;
+  s.keeper.guess_m = 0.6;
+  const std::vector<VisionFrame> frames = frames_of_a_kick(s);
+  const auto seen_m = [&](double since_release_s) {  // the ball leaves at 0.16 s, and a frame is 0.06 s old
+    return std::abs(frames.at(static_cast<std::size_t>(std::lround((since_release_s + 0.22) / 0.02)) - 1).keeper->x_m);
+  };
+  EXPECT_NEAR(seen_m(0.0), 0.0, 1e-9);
+  EXPECT_NEAR(seen_m(0.2), 0.09, 0.01);
+  EXPECT_NEAR(seen_m(0.3), 0.2025, 0.015);
+  EXPECT_NEAR(seen_m(0.76), 0.6, 0.01);
+}
+
+TEST(Vision, OfAKeeperThatGuessesIsTheSameUntilItJumps) {
+  Scenario s;
+  s.keeper.enabled = true;
+  const std::vector<VisionFrame> waits = frames_of_a_kick(s);
+  s.keeper.guess_m = 0.6;
+  const std::vector<VisionFrame> jumps = frames_of_a_kick(s);
+  int moved = 0;
+  for (std::size_t i = 0; i < waits.size(); ++i) {
+    ASSERT_EQ(waits[i].keeper.has_value(), jumps[i].keeper.has_value());
+    EXPECT_EQ(waits[i].pose.has_value(), jumps[i].pose.has_value());
+    if (!waits[i].keeper) continue;
+    const bool same = waits[i].keeper->x_m == jumps[i].keeper->x_m && waits[i].keeper->y_m == jumps[i].keeper->y_m;
+    EXPECT_TRUE(same || i >= 7) << i;
+    moved += !same;
+  }
+  EXPECT_GT(moved, 20);
+}
+
 TEST(Vision, LatencyMayLieBetweenSteps) {
   Scenario s = noiseless();
   s.vision.latency_s = 0.0123456;

@@ -192,6 +192,31 @@ TEST(Shot, AKeeperThatGuessesLeavesTheMiddleWhateverTheBallDoes) {
   EXPECT_GT(right, 8);
 }
 
+TEST(Shot, AKeeperThatGuessesIsOnItsWayFromTheReleaseOn) {
+  Scenario scenario = airless();
+  const auto at_s = [&](double t_s, std::uint64_t seed = 3) {
+    const Shot shot{scenario, {{{2.0, 3.0, 0.11}, {0.0, 6.0, 5.0}}}, 1'000'000'000, kicking::Draws{seed, 0}};
+    return shot.jumping_keeper(1'000'000'000 + kicking::nanoseconds(t_s));
+  };
+  scenario.keeper.guess_m = 0.6;
+  EXPECT_FALSE(at_s(0.2)) << "there is none";
+  scenario.keeper.enabled = true;
+  EXPECT_EQ(at_s(0.0)->x_m, 0.0);
+  EXPECT_EQ(at_s(0.0)->y_m, 9.0);
+  EXPECT_NEAR(std::abs(at_s(0.2)->x_m), 0.5 * 4.5 * 0.04, 2e-3);
+  EXPECT_NEAR(std::abs(at_s(0.8)->x_m), 0.6, 5e-3);
+  EXPECT_EQ(at_s(0.8)->x_m > 0.0, at_s(0.2)->x_m > 0.0);
+  int right = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) right += at_s(0.8, seed)->x_m > 0.0;
+  EXPECT_GT(right, 8);
+  EXPECT_LT(right, 32);
+  scenario.keeper.advance_m = 0.6;
+  EXPECT_NEAR(at_s(0.0)->x_m, 0.2, 1e-12) << "from where it stood";
+  EXPECT_NEAR(std::abs(at_s(0.8)->x_m - 0.2), 0.6, 5e-3);
+  scenario.keeper.guess_m = 0.0;
+  EXPECT_FALSE(at_s(0.2)) << "it waits";
+}
+
 TEST(Shot, WhatAKeeperMistakesIsItsOwnDraw) {
   Scenario scenario = airless();
   scenario.keeper.enabled = true;
