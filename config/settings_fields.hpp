@@ -160,6 +160,8 @@ void fields(V& v, KeeperConfig& k) {
   v("height_m", k.height_m, Range{0.0, 3.0});
   v("sd_m", k.sd_m, Range{0.0, 2.0});
   v("miss_ratio", k.miss_ratio, Range{0.0, 1.0});
+  v("guess_m", k.guess_m, Range{0.0, 1.2});
+  v("guess_prior", k.guess_prior, Range{0.0, 0.9});
 }
 
 /// [policy.own.NAME] of a policy from outside.

@@ -27,6 +27,28 @@ double p_beside(double mean_m, double sd_m, double edge_m, double edge_sd_m, dou
   return p;
 }
 
+/// How far a keeper that guesses has gone after t_s.
+double guessed_m(const KeeperConfig& keeper, double t_s) {
+  const double a = keeper.acceleration_mps2, half_s = std::sqrt(keeper.guess_m / a);
+  if (!(a > 0.0) || t_s >= 2.0 * half_s) return keeper.guess_m;
+  return t_s < half_s ? 0.5 * a * t_s * t_s : keeper.guess_m - 0.5 * a * std::pow(2.0 * half_s - t_s, 2);
+}
+
+/// Probability that a ball crosses at N(mean, sd^2) between the posts and at the body of a keeper that guesses.
+double p_at_guess(const CrossingSpread& crossing, const KeeperConfig& keeper, const KeeperPlace& place, double post_m,
+                  double radius_m) {
+  const double reach_m = keeper.half_width_m + radius_m, gone_m = guessed_m(keeper, crossing.t_flight_s);
+  const double sd_m =
+      std::sqrt(crossing.sd_x_m * crossing.sd_x_m + keeper.sd_m * keeper.sd_m + place.sd_m * place.sd_m);
+  double p = 0.0;
+  for (const double side : {-1.0, 1.0}) {
+    const double middle_m = place.x_m + side * gone_m;
+    const double from_m = std::max(middle_m - reach_m, -post_m), to_m = std::min(middle_m + reach_m, post_m);
+    if (to_m > from_m) p += 0.5 * (normal_below(to_m - crossing.x_m, sd_m) - normal_below(from_m - crossing.x_m, sd_m));
+  }
+  return p;
+}
+
 }  // namespace
 
 double keeper_reach_m(const KeeperConfig& keeper, double flight_s, const Ball& ball) {
@@ -49,9 +71,15 @@ GoalChance goal_chance(const CrossingSpread& crossing, double bounce_ratio, cons
   const double in_height = below - (1.0 - bounce_ratio) * normal_below(ball.radius_m - crossing.z_m, crossing.sd_z_m);
   GoalChance chance{.p_on_target = std::max(0.0, between * in_height)};
   if (chance.p_on_target <= least) return {};
-  const double reach_m = keeper_reach_m(keeper, crossing.t_flight_s, ball), sd_m = std::hypot(keeper.sd_m, place.sd_m);
-  const double beside = p_beside(x, sd_x, place.x_m + reach_m, sd_m, post_m, inside_right, outside_left) +
-                        p_beside(-x, sd_x, reach_m - place.x_m, sd_m, post_m, 1.0 - outside_left, 1.0 - inside_right);
+  double beside = 0.0;
+  if (place.guesses) {
+    beside = std::max(0.0, between - p_at_guess(crossing, keeper, place, post_m, ball.radius_m));
+  } else {
+    const double reach_m = keeper_reach_m(keeper, crossing.t_flight_s, ball);
+    const double sd_m = std::hypot(keeper.sd_m, place.sd_m);
+    beside = p_beside(x, sd_x, place.x_m + reach_m, sd_m, post_m, inside_right, outside_left) +
+             p_beside(-x, sd_x, reach_m - place.x_m, sd_m, post_m, 1.0 - outside_left, 1.0 - inside_right);
+  }
   const double covered = std::max(0.0, between - beside);
   const double over =
       std::max(0.0, below - normal_below(keeper.height_m + ball.radius_m - crossing.z_m, crossing.sd_z_m));

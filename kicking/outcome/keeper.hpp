@@ -15,12 +15,15 @@ struct KeeperConfig {
   double height_m = 0.85;          ///< the same upwards; rules: 0.8 and 0.1 m
   double sd_m = 0.1;               ///< of where its edge is when the ball comes: how well all of this is known
   double miss_ratio = 0.05;        ///< of the balls within its reach that pass it: its eyes; assumption
+  double guess_m = 0.6;            ///< how far one goes that guesses; assumption
+  double guess_prior = 0.1;        ///< probability that it guesses, before kicks have shown how it plays; assumption
 };
 
 /// A keeper that is tracked.
 struct KeeperPlace {
-  double x_m = 0.0;   ///< along the goal line, in F
-  double sd_m = 0.0;  ///< standard deviation
+  double x_m = 0.0;      ///< along the goal line, in F
+  double sd_m = 0.0;     ///< standard deviation
+  bool guesses = false;  ///< as the ball leaves it jumps to a side, whatever the ball does
 };
 
 /// How far from its place a keeper still stops a ball that comes to the line after `flight_s` [m], by the ball's
@@ -41,6 +44,7 @@ struct GoalChance {
 /// Of a ball whose crossing is spread like that. p_on_target is p_on_target(); a goal is also past the keeper:
 /// - beside it: beyond an edge at place +- reach + N(0, sd^2), by three nodes of Gauss and Hermite; sd^2 is the sum of
 ///   the keeper's and the tracking's variances;
+/// - of one that guesses beside where it then is: guess_m to either side alike often, from and to rest;
 /// - over it: the ball's lower side is above height_m;
 /// - or the keeper misses it, with miss_ratio.
 ///

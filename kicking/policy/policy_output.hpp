@@ -19,9 +19,14 @@ inline PolicyOutput describe(const PolicyConfig& config, const Goal& goal, const
   return output;
 }
 
-/// Whether it plays past a keeper.
-inline bool plays_past(const PolicyConfig& config, const PolicyInput& input) {
+/// Whether a kick is for a goal past a keeper.
+inline bool weighs_keeper(const PolicyConfig& config, const PolicyInput& input) {
   return config.objective == Objective::kGoal && input.keeper;
+}
+
+/// Whether it is aimed at a corner, since the keeper stays in the middle.
+inline bool plays_past(const PolicyConfig& config, const PolicyInput& input) {
+  return weighs_keeper(config, input) && !input.keeper->guesses;
 }
 
 /// Speed over ground towards the goal.

@@ -43,6 +43,7 @@ Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& mod
       oracle_(std::move(oracle)),
       assignment_(settings.assignment, robot_id),
       set_piece_(settings.policy.rules.set_piece_s),
+      keeper_habit_(settings.policy.keeper),
       validity_ns_(kicking::nanoseconds(settings.assignment.order_validity_s)),
       robot_id_(robot_id),
       session_(session) {
@@ -89,6 +90,7 @@ const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::Ki
   if (kicker != nullptr && kicked_by_another(world.t_ns, *kicker)) input.kicker_ready = false;
   input.state_age_s = std::max(input.state_age_s, std::abs(world_age_s));
   see_last_kick(outcome, input);
+  see_keeper(kicker, input);
   input.set_piece_left_s = set_piece_.left_s(world);
   const PolicyName policy = decision_.in_charge.policy;
   const bool told = facts(policy).needs_truth();
@@ -141,6 +143,8 @@ void Decider::commit() {
   last_order_ = *decision_.order;
   last_order_possession_id_ = possession_id_;
   last_fire(decision_.in_charge.policy) = fired_t_ns_;
+  keeper_habit_.kicked(last_order_.fire_t_ns + kicking::nanoseconds(model_.kind(last_order_.kick_kind).delay_s),
+                       decision_.output.predicted ? decision_.output.predicted->x_m : decision_.output.target_x_m);
 }
 
 std::optional<std::int64_t>& Decider::last_fire(PolicyName policy) { return memory(policy).get()->fired_t_ns; }
@@ -167,6 +171,14 @@ bool Decider::awaits_outcome(const msg::WorldState& world, const msg::KickerStat
 bool Decider::reads_opponents() const {
   const auto reads = [](PolicyName policy) { return facts(policy).reads_opponents; };
   return std::ranges::any_of(assignment_.candidates(), reads) || std::ranges::any_of(shadows_, reads);
+}
+
+/// What the keeper does, and did after the last order's kick where the driver accepted it.
+void Decider::see_keeper(const msg::KickerStatus* kicker, kicking::PolicyInput& input) {
+  if (!input.playing) keeper_habit_.forget_kick();
+  if (kicker != nullptr && kicker->last_accepted && kicker->last_kick_id == last_order_.kick_id)
+    keeper_habit_.see(input.t_ns, input.keeper);
+  if (input.keeper) input.keeper->guesses = keeper_habit_.guesses();
 }
 
 /// What was seen of the last order's kick, once the observer has said it.

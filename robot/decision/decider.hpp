@@ -10,6 +10,7 @@
 #include "kicking/kick_id.hpp"
 #include "kicking/policy/policy.hpp"
 #include "robot/decision/assignment.hpp"
+#include "robot/decision/keeper_habit.hpp"
 #include "robot/referee/set_piece_clock.hpp"
 
 namespace trivela::robot {
@@ -92,6 +93,7 @@ class Decider {
   void begin_possession(std::uint8_t half, std::uint32_t possession_id);
   bool kicked_by_another(std::int64_t t_ns, const msg::KickerStatus& kicker);
   void see_last_kick(const std::optional<msg::KickOutcome>& outcome, kicking::PolicyInput& input) const;
+  void see_keeper(const msg::KickerStatus* kicker, kicking::PolicyInput& input);
   void judge_shadows(const kicking::PolicyInput& input);
   kicking::PolicyMemory& memory(kicking::PolicyName policy) { return memory_[static_cast<std::size_t>(policy)]; }
   std::optional<std::int64_t>& last_fire(kicking::PolicyName policy);
@@ -108,6 +110,7 @@ class Decider {
   std::optional<GroundTruthPolicy> oracle_;
   PolicyAssignment assignment_;
   SetPieceClock set_piece_;
+  KeeperHabit keeper_habit_;
   std::vector<kicking::PolicyName> shadows_;
   std::int64_t validity_ns_;
   std::uint8_t robot_id_;

@@ -53,6 +53,19 @@ TEST(Corner, WithoutAKeeperOrForTheShotAloneNothingChanges) {
     }
 }
 
+TEST(Corner, PastAKeeperThatGuessesAllAimAtTheMiddleAndPredictiveWeighsGoals) {
+  for (const PolicyName policy : kPlay) {
+    PolicyMemory memory, nobodys;
+    const PolicyInput input = past({0.0, 0.05, true}, {0.2, 4, -0.1});
+    PolicyInput nobody = input;
+    nobody.keeper.reset();
+    const PolicyOutput output = evaluate(policy, {}, {}, {}, input, memory);
+    EXPECT_EQ(output.target_x_m, 0.0) << name(policy);
+    EXPECT_EQ(output.drive.vy_mps, evaluate(policy, {}, {}, {}, nobody, nobodys).drive.vy_mps) << name(policy);
+    EXPECT_EQ(output.p_goal.has_value(), policy == PolicyName::kPredictive);
+  }
+}
+
 TEST(Corner, TheGoalIsNeverLikelierThanTheTargetAndBothAreTold) {
   for (double y = 2.0; y <= 6.5; y += 0.5) {
     PolicyMemory memory;

@@ -90,6 +90,50 @@ TEST(Keeper, CornersAreWorthMoreThanTheMiddleAndTheFarOneMost) {
   EXPECT_LT(p_goal(crossing(0.7, 0.5, 0.5), {}, {0.3, 0.05}), right);
 }
 
+TEST(Keeper, OneThatGuessesHasOneSideAndNotTheMiddle) {
+  const KeeperConfig keeper{.sd_m = 0.0, .miss_ratio = 0.0};
+  const KeeperPlace guesses{.guesses = true};
+  const auto p = [&](double x_m, double t_s) { return p_goal(crossing(x_m, 0.5, t_s, 0.01), keeper, guesses); };
+  // From rest to rest 0.6 m at 4.5 m/s2 take 0.730 s; it reaches 0.41 m farther.
+  for (const double t_s : {0.75, 1.5}) {
+    EXPECT_NEAR(p(0.0, t_s), 1.0, 1e-4);
+    EXPECT_NEAR(p(0.15, t_s), 1.0, 1e-4);
+    EXPECT_NEAR(p(0.23, t_s), 0.5, 1e-4);
+    EXPECT_NEAR(p(-0.8, t_s), 0.5, 1e-4);
+  }
+  EXPECT_NEAR(p(0.0, 0.3), 0.0, 1e-4) << "0.2025 m: it still has the middle";
+  EXPECT_NEAR(p(0.25, 0.3), 0.5, 1e-4);
+  EXPECT_NEAR(p(0.7, 0.3), 1.0, 1e-4);
+  EXPECT_NEAR(p(0.0, 0.55), 1.0, 1e-4) << "0.6 - 2.25 0.18^2 = 0.527 m";
+  EXPECT_NEAR(p(1.1, 1.0), 0.0, 1e-4) << "wide";
+  EXPECT_EQ(p_goal(crossing(0.3, 0.5), {.speed_mps = 0.0, .acceleration_mps2 = 0.0}, guesses),
+            p_goal(crossing(0.3, 0.5, 2.0), {}, guesses))
+      << "of no acceleration it is there at once";
+}
+
+TEST(Keeper, TheIntegralOfOneThatGuessesIsThatOfDrawnKicksAndKeepers) {
+  std::mt19937 random{7};
+  std::normal_distribution<double> normal;
+  const Goal goal;
+  const Ball ball;
+  const KeeperConfig keeper;
+  const KeeperPlace place{-0.1, 0.1, true};
+  for (const double x_m : {-0.5, 0.0, 0.4}) {
+    constexpr int kDraws = 200'000;
+    double goals = 0.0;
+    for (int i = 0; i < kDraws; ++i) {
+      const double x = x_m + 0.2 * normal(random), z = 0.5 + 0.2 * normal(random);
+      const double stands_m =
+          place.x_m + std::copysign(keeper.guess_m, normal(random)) + std::hypot(0.1, 0.1) * normal(random);
+      if (std::abs(x) > goal.clean_half_width_m(ball) || z > goal.clean_height_m(ball)) continue;
+      const bool beside = std::abs(x - stands_m) > keeper.half_width_m + ball.radius_m;
+      const double in = z < ball.radius_m ? kBounce : 1.0;
+      goals += beside || z > keeper.height_m + ball.radius_m ? in : keeper.miss_ratio * in;
+    }
+    EXPECT_NEAR(p_goal(crossing(x_m, 0.5, 1.0, 0.2), keeper, place), goals / kDraws, 0.02) << x_m;
+  }
+}
+
 TEST(Keeper, TheIntegralIsThatOfDrawnKicksAndKeepers) {
   std::mt19937 random{7};
   std::normal_distribution<double> normal;

@@ -91,6 +91,37 @@ TEST(Decider, AKickOfTheOtherNodeIsMindedForAsLongAsAnOrderAndNoLonger) {
   EXPECT_NEAR(held * 0.02, robot.settings.policy.order_hold_s, 0.021);
 }
 
+/// Possessions of a robot that faces the right corner, past a keeper that has gone `gone_m` half a second after each
+/// kick. Where the last one aims.
+double aims_at_x_m(int possessions, double gone_m, bool accepted = true) {
+  Robot robot;
+  robot.world.x_m = 0.74;
+  double target_x_m = 0.0;
+  for (int i = 0; i < possessions; ++i) {
+    ++robot.world.possession_id;
+    robot.world.possession = true;
+    robot.world.keeper_x_m = 0.0;
+    robot.world.keeper_sd_m = 0.08;
+    const CycleDecision& decision = robot.cycle();
+    target_x_m = decision.output.target_x_m;
+    if (!decision.order) break;
+    if (accepted) robot.driver_accepts(decision.order->kick_id);
+    robot.world.possession = false;
+    for (int cycle = 0; cycle < 40; ++cycle) {
+      robot.world.keeper_x_m = cycle < 20 ? 0.0 : gone_m;
+      robot.cycle();
+    }
+  }
+  return target_x_m;
+}
+
+TEST(Decider, AimsAtTheMiddleOfAKeeperThatWasSeenToJump) {
+  EXPECT_NEAR(aims_at_x_m(1, -0.32), 0.74, 1e-9);
+  EXPECT_EQ(aims_at_x_m(3, -0.32), 0.0);
+  EXPECT_NEAR(aims_at_x_m(3, 0.0), 0.74, 1e-9) << "it waits";
+  EXPECT_NEAR(aims_at_x_m(3, -0.32, false), 0.74, 1e-9) << "no kick: it jumped for nothing";
+}
+
 TEST(Decider, ItsOwnAcceptedKickIsNoKickOfAnother) {
   Robot robot;
   const std::int64_t kick_id = robot.cycle().order.value().kick_id;

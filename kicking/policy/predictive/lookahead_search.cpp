@@ -52,7 +52,7 @@ LookaheadSearch::LookaheadSearch(const PolicyConfig& config, const RobotModel& r
       learned_(learned != nullptr && learned->corrects() ? learned : nullptr),
       decision_(learned != nullptr ? learned->decision : kByHand),
       settings_(settings_of(config.predictive, decision_)),
-      past_keeper_(plays_past(config, input)),
+      past_keeper_(weighs_keeper(config, input)),
       reach_(carry_reach(config, robot, memory)),
       start_(settled(config, input, memory)),
       spread_(spread_of(settings_, input, memory)),

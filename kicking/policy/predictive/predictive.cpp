@@ -54,10 +54,10 @@ Reason reason_of(const CandidateWay& best) {
 
 PolicyOutput evaluate_by(const LearnedModel* learned, const PolicyConfig& config, const RobotModel& robot,
                          const Goal& goal, const PolicyInput& input, PredictiveMemory& own) {
-  const bool past_keeper = plays_past(config, input);
+  const bool past_keeper = weighs_keeper(config, input);
   const bool pending = order_pending(config, input, own);
   if (!pending) {
-    own.cycles_past = past_keeper ? own.cycles_past + 1 : 0;
+    own.cycles_past = plays_past(config, input) ? own.cycles_past + 1 : 0;
     if (own.cycles_past <= 1) own.way.aim_x_m = target_past(config, robot, goal, input, own).x();
   }
   own.watch_lever(robot, input);
