@@ -22,6 +22,106 @@ Reason reason_named(const std::string& text) {
 
 std::optional<double> of(Maybe number) { return number; }
 
+using OutputClass = py::class_<PolicyOutput>;
+using CycleClass = py::class_<Cycle, std::shared_ptr<Cycle>>;
+
+void add_number(OutputClass& output, const char* key, Maybe PolicyOutput::*field, const char* what) {
+  output.def_property(
+      key, [field](const PolicyOutput& out) { return of(out.*field); },
+      [field](PolicyOutput& out, std::optional<double> value) { out.*field = value; }, what);
+}
+
+void add_drive(OutputClass& output, const char* key, double Twist::*part, const char* what) {
+  output.def_property(
+      key, [part](const PolicyOutput& out) { return out.drive.*part; },
+      [part](PolicyOutput& out, double value) { out.drive.*part = value; }, what);
+}
+
+void add_rules(CycleClass& cycle) {
+  cycle
+      .def(
+          "stopped", [](const Cycle& c) { return c.ask(&evaluate_stopped, &PythonMemory::stopped); },
+          "The Output of the policy `stopped` in this cycle.")
+      .def(
+          "moving", [](const Cycle& c) { return c.ask(&evaluate_moving, &PythonMemory::moving); },
+          "The Output of the policy `moving` in this cycle.")
+      .def(
+          "predictive", [](const Cycle& c) { return c.ask(&evaluate_predictive, &PythonMemory::predictive); },
+          "The Output of the policy `predictive` in this cycle. Its drive is for the kick that it fires: where you "
+          "hold that kick back, give the Output a drive of your own.")
+      .def("shot", &Cycle::shot, py::arg("target_x_m"),
+           "Power and predicted crossing of a kick at this point of the goal line, as an Output that holds.")
+      .def("setting", &Cycle::setting, py::arg("key"),
+           "A setting of the policy. KeyError where it has none of this key.")
+      .def(
+          "turn_rate_radps",
+          [](const Cycle& c, double heading_error_rad) {
+            c.require_now();
+            return turn_rate_for(heading_error_rad, c.config->moving_turn_gain_hz, *c.config);
+          },
+          py::arg("heading_error_rad"),
+          "Turn rate [rad/s] that takes away an error of heading [rad], within the robot's limits.");
+}
+/// A number that is known while evaluate() is asked.
+void known(CycleClass& cycle, const char* key, auto get, const char* what) {
+  const auto now = [get](const Cycle& c) {
+    c.require_now();
+    return get(c);
+  };
+  cycle.def_property_readonly(key, now, what);
+}
+
+void add_motion(CycleClass& cycle) {
+  known(
+      cycle, "t_s", [](const Cycle& c) { return 1e-9 * static_cast<double>(c.input->t_ns); }, "Time of the match [s].");
+  known(
+      cycle, "x_m", [](const Cycle& c) { return c.input->pose.x_m; }, "Robot's place to the right [m].");
+  known(
+      cycle, "y_m", [](const Cycle& c) { return c.input->pose.y_m; }, "Robot's place towards the goal [m].");
+  known(
+      cycle, "heading_rad", [](const Cycle& c) { return c.input->pose.heading_rad; },
+      "Heading [rad], counter-clockwise; 0 faces +y.");
+  known(
+      cycle, "vx_mps", [](const Cycle& c) { return c.input->twist.vx_mps; }, "Speed to the robot's right [m/s].");
+  known(
+      cycle, "vy_mps", [](const Cycle& c) { return c.input->twist.vy_mps; }, "Speed forward [m/s].");
+  known(
+      cycle, "omega_radps", [](const Cycle& c) { return c.input->twist.omega_radps; },
+      "Turn rate [rad/s], counter-clockwise.");
+}
+
+void add_surroundings(CycleClass& cycle) {
+  known(
+      cycle, "sd_position_m", [](const Cycle& c) { return c.input->sd_position_m; },
+      "Standard deviation of the place, each axis [m].");
+  known(
+      cycle, "sd_heading_rad", [](const Cycle& c) { return c.input->sd_heading_rad; },
+      "Standard deviation of the heading [rad].");
+  known(
+      cycle, "opponent_distance_m", [](const Cycle& c) { return of(c.input->opponent_distance_m); },
+      "From the nearest opponent to the ball [m]; None: none is seen.");
+  known(
+      cycle, "keeper_x_m",
+      [](const Cycle& c) { return c.input->keeper ? std::optional{c.input->keeper->x_m} : std::nullopt; },
+      "Keeper's place to the right [m]; None: no keeper is tracked.");
+  known(
+      cycle, "opponents_m",
+      [](const Cycle& c) {
+        std::vector<std::pair<double, double>> places;
+        for (std::size_t i = 0; i < c.input->opponent_count; ++i)
+          places.emplace_back(c.input->opponents[i].position_m.x(), c.input->opponents[i].position_m.y());
+        return places;
+      },
+      "Places (x_m, y_m) of the opponents that are tracked, the keeper aside.");
+  known(
+      cycle, "goal_y_m", [](const Cycle& c) { return c.goal->y_m; }, "Goal line's place [m].");
+  known(
+      cycle, "goal_half_width_m", [](const Cycle& c) { return c.goal->half_width_m; },
+      "Half of the goal's inner width [m].");
+  known(
+      cycle, "goal_height_m", [](const Cycle& c) { return c.goal->height_m; }, "Goal's inner height [m].");
+}
+
 }  // namespace
 
 void add_output(py::module_& module) {
@@ -48,116 +148,24 @@ void add_output(py::module_& module) {
       .def_property_readonly(
           "predicted_z_cross_m", [](const Output& out) { return of(predicted<&PredictedCrossing::z_m>(out)); },
           "Its centre's height there [m]; None: it does not cross.");
-  struct Number {
-    const char* key;
-    Maybe Output::*field;
-    const char* what;
-  };
-  for (const auto& [key, field, what] :
-       {Number{"power", &Output::power,
-               "Set-point in the unit of the robot's table; None: no kick reaches the target."},
-        Number{"v_kick_mps", &Output::v_kick_mps, "Exit speed that the set-point is for [m/s], or None."},
-        Number{"p_on_target", &Output::p_on_target, "Probability of a ball on target, or None."},
-        Number{"p_goal", &Output::p_goal, "The same, and past the keeper; None: no keeper is tracked."}}) {
-    output.def_property(
-        key, [field](const Output& out) { return of(out.*field); },
-        [field](Output& out, std::optional<double> value) { out.*field = value; }, what);
-  }
-  struct Drive {
-    const char* key;
-    double Twist::*part;
-    const char* what;
-  };
-  for (const auto& [key, part, what] :
-       {Drive{"vx_mps", &Twist::vx_mps, "Drive to the robot's right until the next cycle [m/s]."},
-        Drive{"vy_mps", &Twist::vy_mps, "Drive forward until the next cycle [m/s]."},
-        Drive{"omega_radps", &Twist::omega_radps, "Turn counter-clockwise until the next cycle [rad/s]."}}) {
-    output.def_property(
-        key, [part](const Output& out) { return out.drive.*part; },
-        [part](Output& out, double value) { out.drive.*part = value; }, what);
-  }
+  add_number(output, "power", &Output::power,
+             "Set-point in the unit of the robot's table; None: no kick reaches the target.");
+  add_number(output, "v_kick_mps", &Output::v_kick_mps, "Exit speed that the set-point is for [m/s], or None.");
+  add_number(output, "p_on_target", &Output::p_on_target, "Probability of a ball on target, or None.");
+  add_number(output, "p_goal", &Output::p_goal, "The same, and past the keeper; None: no keeper is tracked.");
+  add_drive(output, "vx_mps", &Twist::vx_mps, "Drive to the robot's right until the next cycle [m/s].");
+  add_drive(output, "vy_mps", &Twist::vy_mps, "Drive forward until the next cycle [m/s].");
+  add_drive(output, "omega_radps", &Twist::omega_radps, "Turn counter-clockwise until the next cycle [rad/s].");
 }
 
 void add_cycle(py::module_& module) {
-  py::class_<Cycle, std::shared_ptr<Cycle>> cycle(
+  CycleClass cycle(
       module, "Cycle",
       "What a robot knows in one cycle, and what the built-in policies would do in it. The field's origin is its "
-      "centre "
-      "spot, +y points to the opponents' goal, +x to the right. ValueError once evaluate() has returned.");
-  cycle
-      .def(
-          "stopped", [](const Cycle& c) { return c.ask(&evaluate_stopped, &PythonMemory::stopped); },
-          "The Output of the policy `stopped` in this cycle.")
-      .def(
-          "moving", [](const Cycle& c) { return c.ask(&evaluate_moving, &PythonMemory::moving); },
-          "The Output of the policy `moving` in this cycle.")
-      .def(
-          "predictive", [](const Cycle& c) { return c.ask(&evaluate_predictive, &PythonMemory::predictive); },
-          "The Output of the policy `predictive` in this cycle. Its drive is for the kick that it fires: where you "
-          "hold "
-          "that kick back, give the Output a drive of your own.")
-      .def("shot", &Cycle::shot, py::arg("target_x_m"),
-           "Power and predicted crossing of a kick at this point of the goal line, as an Output that holds.")
-      .def("setting", &Cycle::setting, py::arg("key"),
-           "A setting of the policy. KeyError where it has none of this key.")
-      .def(
-          "turn_rate_radps",
-          [](const Cycle& c, double heading_error_rad) {
-            c.require_now();
-            return turn_rate_for(heading_error_rad, c.config->moving_turn_gain_hz, *c.config);
-          },
-          py::arg("heading_error_rad"),
-          "Turn rate [rad/s] that takes away an error of heading [rad], within the robot's limits.");
-  const auto known = [&](const char* key, auto get, const char* what) {
-    const auto now = [get](const Cycle& c) {
-      c.require_now();
-      return get(c);
-    };
-    cycle.def_property_readonly(key, now, what);
-  };
-  known(
-      "t_s", [](const Cycle& c) { return 1e-9 * static_cast<double>(c.input->t_ns); }, "Time of the match [s].");
-  known(
-      "x_m", [](const Cycle& c) { return c.input->pose.x_m; }, "Robot's place to the right [m].");
-  known(
-      "y_m", [](const Cycle& c) { return c.input->pose.y_m; }, "Robot's place towards the goal [m].");
-  known(
-      "heading_rad", [](const Cycle& c) { return c.input->pose.heading_rad; },
-      "Heading [rad], counter-clockwise; 0 faces +y.");
-  known(
-      "vx_mps", [](const Cycle& c) { return c.input->twist.vx_mps; }, "Speed to the robot's right [m/s].");
-  known(
-      "vy_mps", [](const Cycle& c) { return c.input->twist.vy_mps; }, "Speed forward [m/s].");
-  known(
-      "omega_radps", [](const Cycle& c) { return c.input->twist.omega_radps; },
-      "Turn rate [rad/s], counter-clockwise.");
-  known(
-      "sd_position_m", [](const Cycle& c) { return c.input->sd_position_m; },
-      "Standard deviation of the place, each axis [m].");
-  known(
-      "sd_heading_rad", [](const Cycle& c) { return c.input->sd_heading_rad; },
-      "Standard deviation of the heading [rad].");
-  known(
-      "opponent_distance_m", [](const Cycle& c) { return of(c.input->opponent_distance_m); },
-      "From the nearest opponent to the ball [m]; None: none is seen.");
-  known(
-      "keeper_x_m", [](const Cycle& c) { return c.input->keeper ? std::optional{c.input->keeper->x_m} : std::nullopt; },
-      "Keeper's place to the right [m]; None: no keeper is tracked.");
-  known(
-      "opponents_m",
-      [](const Cycle& c) {
-        std::vector<std::pair<double, double>> places;
-        for (std::size_t i = 0; i < c.input->opponent_count; ++i)
-          places.emplace_back(c.input->opponents[i].position_m.x(), c.input->opponents[i].position_m.y());
-        return places;
-      },
-      "Places (x_m, y_m) of the opponents that are tracked, the keeper aside.");
-  known(
-      "goal_y_m", [](const Cycle& c) { return c.goal->y_m; }, "Goal line's place [m].");
-  known(
-      "goal_half_width_m", [](const Cycle& c) { return c.goal->half_width_m; }, "Half of the goal's inner width [m].");
-  known(
-      "goal_height_m", [](const Cycle& c) { return c.goal->height_m; }, "Goal's inner height [m].");
+      "centre spot, +y points to the opponents' goal, +x to the right. ValueError once evaluate() has returned.");
+  add_rules(cycle);
+  add_motion(cycle);
+  add_surroundings(cycle);
 }
 
 }  // namespace trivela::python

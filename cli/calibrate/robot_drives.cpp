@@ -33,6 +33,8 @@
 namespace trivela::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::chrono::seconds kTimeout{2};  // in which a writer that runs is known, on a busy machine too
 
 /// What lacks, by looking for the writers of a topic each, all within the same two seconds.
@@ -202,8 +204,6 @@ config::Settings settings_of_robot_drive(const calibration::DrivePlan& plan, con
 }
 
 }  // namespace
-
-namespace fs = std::filesystem;
 
 RobotDrives::RobotDrives(config::Settings settings, fs::path folder, fs::path robot_file, SignalInbox& signals)
     : settings_(std::move(settings)),
