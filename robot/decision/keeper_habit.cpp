@@ -1,5 +1,6 @@
 #include "robot/decision/keeper_habit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kicking/geometry/time.hpp"
@@ -38,7 +39,7 @@ void KeeperHabit::see(std::int64_t t_ns, const std::optional<kicking::KeeperPlac
     return;
   }
   // Errors of one track are alike: half the sum.
-  const double var_m2 = 0.5 * (keeper->sd_m * keeper->sd_m + kick_->stood->sd_m * kick_->stood->sd_m);
+  const double var_m2 = std::max(1e-9, 0.5 * (keeper->sd_m * keeper->sd_m + kick_->stood->sd_m * kick_->stood->sd_m));
   learn(keeper->x_m - kick_->stood->x_m, kick_->x_cross_m - kick_->stood->x_m, var_m2);
   forget_kick();
 }
