@@ -13,7 +13,7 @@ constexpr double kHead_s = 0.13;         // that one which jumps has driven more
 constexpr double kTrackAge_s = 0.17;     // of what a track shows of somebody who moves: camera and filter
 constexpr double kLate_s = 0.05;         // a cycle that comes later tells nothing
 constexpr double kInSight_m = 0.1;       // a track that is less certain has no picture of the last 0.2 s
-constexpr double kFollow_ratio = 0.1;    // of the keepers that do not guess
+constexpr double kFollow_ratio = 0.3;    // of the keepers that do not guess
 constexpr double kChange_ratio = 0.01;   // that from this kick on it plays as anybody may
 constexpr double kOutlier_ratio = 0.01;  // of a likelihood's peak, whatever is seen
 
