@@ -172,6 +172,22 @@ TEST(Simulate, MovesALeverAndKicksFlatLikeTheNodesOnTheBus) {
             number_of(Reader{folder / "bus.db"}, "SELECT count(*) FROM kick_orders WHERE kick_kind = 1"));
 }
 
+TEST(Simulate, LearnsThatAKeeperJumpsEarlyAndAimsAtTheMiddleLikeTheNodesOnTheBus) {
+  const tests::Folder folder;
+  std::ofstream{folder / "jumps.toml"} << "[keeper]\nenabled = true\nguess_m = 0.6\n";
+  const std::string believes = "policy.keeper.guess_prior=0.4";
+  run(folder, {"simulate", "--arms", "predictive", "--matches", "1", "--possessions", "8", "--robot", kRobot,
+               "--scenario", "jumps.toml", "--shadows", "--every-cycle", "--set", believes, "--out", "in.db"});
+  const Reader log{folder / "in.db"};
+  const std::string aimed = "SELECT count(*) FROM kick_decisions WHERE fire = 1 AND target_x_m ";
+  EXPECT_GE(number_of(log, aimed + "<> 0"), 1) << "before its first kick nobody knows";
+  EXPECT_GE(number_of(log, aimed + "= 0"), 1);
+  EXPECT_THAT(differing_on_the_bus(folder, {"--half", "predictive", "--set", believes, "--set",
+                                            fmt::format("run.scenario='{}'", (folder / "jumps.toml").string()), "--set",
+                                            fmt::format("run.robot='{}'", kRobot)}),
+              IsEmpty());
+}
+
 TEST(Simulate, LearnsAKickerAndDecidesByItLikeTheNodesOnTheBus) {
   const tests::Folder folder;
   const std::string on = "self_calibration.mode='on'";
