@@ -13,7 +13,7 @@ namespace trivela::cli {
 class StopRequest {
  public:
   StopRequest() {
-    asked_ = 0;
+    requested = 0;
     struct sigaction ours {};
     ours.sa_handler = take;
     ours.sa_flags = SA_RESTART;
@@ -25,20 +25,20 @@ class StopRequest {
     for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
   }
 
-  static bool asked() { return asked_ != 0; }
+  static bool asked() { return requested != 0; }
 
  private:
   static constexpr std::array kSignals{SIGINT, SIGTERM};
 
   /// Calls nothing but what a signal may interrupt.
   static void take(int) {
-    asked_ = 1;
+    requested = 1;
     for (const int signal : kSignals) std::signal(signal, SIG_DFL);
     constexpr std::string_view kSays = "\ntrivela: stops after the matches under way; Ctrl-C once more stops at once\n";
     [[maybe_unused]] const auto written = write(STDERR_FILENO, kSays.data(), kSays.size());
   }
 
-  static inline volatile std::sig_atomic_t asked_ = 0;
+  static inline volatile std::sig_atomic_t requested = 0;
   std::array<struct sigaction, kSignals.size()> before_{};
 };
 
