@@ -28,8 +28,8 @@ int merge_shards(const MergeArguments& arguments, const std::vector<std::filesys
   if (arguments.reference_robot) throw UsageError{"--reference: shards of an experiment have one clock"};
   const auto merged = [&] {
     StoppableBar bar;
-    return log::merge_shards(shards, arguments.out, [&](std::size_t done, std::size_t all) {
-      return bar.show(static_cast<double>(done), static_cast<double>(all), "shards", "");
+    return log::merge_shards(shards, arguments.out, [&](std::int64_t read, std::int64_t all) {
+      return bar.show(static_cast<double>(read), static_cast<double>(all), "rows", "copied");
     });
   }();
   say(fmt::format("{}: {} sessions of {} matches, of {} shards\nmissing: nothing\n", arguments.out, merged.sessions,

@@ -61,6 +61,7 @@ class Merging {
             SQLite::Transaction transaction(made, SQLite::TransactionBehavior::IMMEDIATE);
             copy_all(made);
             finish_sessions(made);
+            if (options_.finish) options_.finish(made);
             transaction.commit();
           });
     });

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <SQLiteCpp/Database.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -17,6 +19,7 @@ struct MergeOptions {
   /// Told the rows read so far, and how many the files say that they have, the first time before `to` is made; false:
   /// stop, nothing is kept. None: nobody asks.
   std::function<bool(std::int64_t read, std::int64_t all)> progress{};
+  std::function<void(SQLite::Database&)> finish{};  ///< called with all rows, before they are committed; none: nothing
 };
 
 /// A session as one file had it.

@@ -17,14 +17,13 @@ struct MergedShards {
 /// Is any of the files a shard's log of `trivela simulate`? What cannot be read is none.
 bool any_is_shard(const std::vector<std::filesystem::path>& files);
 
-/// One new match log out of the shards of one experiment, in any order: the rows of every table are those that one run
-/// writes. A shard that is there twice with the same rows is taken once, and so are shards beside the whole
-/// experiment's log. `told(done, all)`: shards that were copied, the first time before `to` is made; false: stop. No
-/// file is changed. Throws Stopped where it says so, std::runtime_error naming the file where one is no shard, of
-/// another experiment or version, damaged or not finished, where two say different things of a session, where one
-/// lacks, and where `to` exists or cannot be written; nothing is left behind then.
+/// merge() of the shards of one experiment, in any order, into the rows that one run writes. A shard may be there
+/// twice, and beside the whole experiment's log. `told`: rows that were read, of how many; false: stop. Throws Stopped
+/// where it says so, std::runtime_error naming the file where one is no shard, of another experiment or version,
+/// damaged or not finished, where two say different things of a session, where one lacks, and where `to` exists or
+/// cannot be written; nothing is left behind then.
 MergedShards merge_shards(
     const std::vector<std::filesystem::path>& files, const std::filesystem::path& to,
-    const std::function<bool(std::size_t done, std::size_t all)>& told = [](auto, auto) { return true; });
+    const std::function<bool(std::int64_t read, std::int64_t all)>& told = [](auto, auto) { return true; });
 
 }  // namespace trivela::log
