@@ -208,17 +208,9 @@ std::vector<std::string> decision_path(const Settings& settings) {
 }
 
 std::map<std::string, std::string> setting_values(const Settings& settings) {
-  std::map<std::string, std::string> values;
   Settings all = settings;
   kicking::complete_own_settings(all.policy.own);
-  std::istringstream lines{to_toml(all)};
-  std::string section;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with('[')) section = line.substr(1, line.size() - 2) + '.';
-    if (const auto equals = line.find(" = "); equals != std::string::npos)
-      values[section + line.substr(0, equals)] = line.substr(equals + 3);
-  }
-  return values;
+  return values_in(to_toml(all));
 }
 
 }  // namespace trivela::config

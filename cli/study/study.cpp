@@ -6,17 +6,18 @@
 #include "cli/options/number_checks.hpp"
 #include "cli/options/shard_option.hpp"
 #include "cli/verbs.hpp"
-#include "config/scenario/scenario.hpp"
 
 namespace trivela::cli {
 
-std::string Study::scenario_name() const { return world.named(std::filesystem::path{world.file}.filename().string()); }
+std::string StudyFlags::scenario_name() const {
+  return world.named(std::filesystem::path{world.file}.filename().string());
+}
 
-void Study::draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base) {
+void StudyFlags::draw_calibrations(const sim::Scenario& scenario) {
   plan.calibrations = cli::draw_calibrations(scenario, base, {calibrations, plan.seed, plan.jobs}, plan.matches);
 }
 
-experiment::StudyPlayed Study::played(const sim::Scenario& scenario) const {
+experiment::StudyPlayed StudyFlags::played(const sim::Scenario& scenario) const {
   return {.scenario = scenario_name(),
           .seed = plan.seed,
           .matches = plan.matches,
@@ -42,8 +43,8 @@ void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<expe
   for (const std::string& remark : experiment::shared_robots(scenario, arms)) warn(remark);
 }
 
-void add_play_options(CLI::App& verb, Study& study) {
-  experiment::PlayPlan& plan = study.plan;
+void add_play_options(CLI::App& verb, StudyFlags& flags) {
+  experiment::PlayPlan& plan = flags.plan;
   verb.add_option("--matches", plan.matches, "Matches of each arm")
       ->check(CLI::Range(2, 1000000))
       ->capture_default_str();
@@ -52,15 +53,16 @@ void add_play_options(CLI::App& verb, Study& study) {
       ->capture_default_str();
   verb.add_option("--seed", plan.seed, "Same seed, same opportunities")->check(seeds())->capture_default_str();
   verb.add_option("--jobs", plan.jobs, "Threads; default one a core")->check(CLI::Range(1, 256));
-  add_world_options(verb, study.world);
-  add_calibrations_option(verb, study.calibrations);
-  verb.add_option("--results", study.results,
+  add_world_options(verb, flags.world);
+  add_calibrations_option(verb, flags.calibrations);
+  verb.add_option("--results", flags.results,
                   "File that keeps what is played, match by match; one of the same command is continued")
       ->type_name("FILE");
-  verb.add_option("--with", study.with,
+  verb.add_option("--with", flags.with,
                   "Results of other runs or shards of this study: nothing of them is played again")
       ->type_name("FILE");
-  add_shard_option(verb, study.shard, "without --shard and --with their --results the report is of all");
+  add_shard_option(verb, flags.shard, "without --shard and --with their --results the report is of all");
+  add_arm_options(verb, flags.base);
 }
 
 void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations) {
@@ -71,60 +73,34 @@ void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations) {
       ->type_name("K");
 }
 
-void add_study_options(CLI::App& verb, Study& study) {
-  add_play_options(verb, study);
-  verb.add_option("--blocked", study.blocked,
-                  "Blocked kicks: outside, as in Table 2, or apart: efficiency is of the others")
-      ->check(CLI::IsMember({"outside", "apart"}))
-      ->capture_default_str();
-  verb.add_option("--csv", study.csv, "Everything that was counted as CSV")->type_name("FILE");
-  verb.add_flag("--json", study.json, "JSON instead of text");
-}
-
-void add_svg_option(CLI::App& verb, Study& study) { verb.add_option("--svg", study.svg, "A chart")->type_name("FILE"); }
-
 void add_arm_options(CLI::App& verb, experiment::ArmBase& base) {
   base.arms_called = "--arms";
   base.set_called = "--set";
-  verb.add_option("--robot", base.robots, "Robot files, one for each of the team; default: the calibrated ones");
+  verb.add_option("--robot", base.robots, "Robot files, one for each of the team; default: the calibrated ones")
+      ->delimiter(',');
   verb.add_option("--config", base.config, "Settings of the nodes")->capture_default_str();
   verb.add_option("--set", base.overrides, "One setting on top, e.g. --set policy.settle_s=0.5");
 }
 
-void require_writable(const Study& study) {
-  if (!study.csv.empty() && study.csv == study.svg)
-    throw UsageError{fmt::format("--csv and --svg are the same file: {}", study.csv)};
-  check_shard(study.shard, study.plan.matches);
-  if (study.shard && study.results.empty())
-    throw UsageError{fmt::format("--shard {}: --results FILE is where its part is kept", study.shard->text())};
-  if (study.shard && (study.json || !study.csv.empty() || !study.svg.empty()))
+void StudyFlags::require_writable() const {
+  if (!csv.empty() && csv == svg) throw UsageError{fmt::format("--csv and --svg are the same file: {}", csv)};
+  check_shard(shard, plan.matches);
+  if (shard && results.empty())
+    throw UsageError{fmt::format("--shard {}: --results FILE is where its part is kept", shard->text())};
+  if (shard && (json || !csv.empty() || !svg.empty()))
     throw UsageError{
         fmt::format("--shard {}: a part has no report; without --shard and --with the results of all parts "
                     "there is one",
-                    study.shard->text())};
-  require_writable("--results", study.results, true);
-  require_writable("--csv", study.csv);
-  require_writable("--svg", study.svg);
-}
-
-std::string arguments_of(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms) {
-  std::string text = config::to_toml_text(scenario);
-  for (const experiment::Arm& arm : arms) text += "\n### arm\n" + experiment::describe(arm);
-  return text;
-}
-
-std::vector<double> sorted(std::vector<double> values) {
-  std::ranges::sort(values);
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
+                    shard->text())};
+  cli::require_writable("--results", results, true);
+  cli::require_writable("--csv", csv);
+  cli::require_writable("--svg", svg);
 }
 
 void add_study(CLI::App& app, int& exit_code) {
   auto* const verb = app.add_subcommand("study", "Compare arms, worlds and settings in many simulated matches");
   verb->require_subcommand(1);
-  for (const auto add : {add_study_arms, add_study_factorial, add_study_frontier, add_study_robustness,
-                         add_study_sensitivity, add_study_tune, add_evaluate_policy, add_learn})
-    add(*verb, exit_code);
+  for (const auto add : {add_questions, add_study_tune, add_evaluate_policy, add_learn}) add(*verb, exit_code);
 }
 
 }  // namespace trivela::cli

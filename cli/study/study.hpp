@@ -12,7 +12,7 @@
 
 #include "cli/options/output.hpp"
 #include "cli/options/world.hpp"
-#include "evaluator/render/json_values.hpp"
+#include "config/text/installation.hpp"
 #include "experiment/run/arms.hpp"
 #include "experiment/run/calibrations.hpp"
 #include "experiment/study/play.hpp"
@@ -22,9 +22,10 @@
 namespace trivela::cli {
 
 /// The flags that all studies have.
-struct Study {
+struct StudyFlags {
   experiment::PlayPlan plan{.jobs = std::max(1u, std::thread::hardware_concurrency())};
   World world;
+  experiment::ArmBase base{config::shipped("default.toml").string(), {}, {}};
   std::uint32_t calibrations = 0;  ///< 0: the robot files as they are
   std::string blocked = "outside";
   std::string csv, svg;
@@ -37,9 +38,13 @@ struct Study {
   std::string scenario_name() const;
 
   /// Plays the calibrations of the plan's seed into the plan, before its matches.
-  void draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base);
+  void draw_calibrations(const sim::Scenario& scenario);
 
   experiment::StudyPlayed played(const sim::Scenario& scenario) const;
+
+  /// Throws, before anything is played, where an output cannot be written or two are the same file, or a shard has no
+  /// place for what it plays or is asked for a report.
+  void require_writable() const;
 };
 
 /// The teams of the calibrations, played with a progress bar on a terminal, for an experiment of so many
@@ -51,46 +56,17 @@ std::vector<experiment::Team> draw_calibrations(const sim::Scenario& scenario, c
 /// A warning where an arm has fewer robot files than the scenario's team has robots.
 void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms);
 
-/// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations, --results, --with, --shard.
-void add_play_options(CLI::App& verb, Study& study);
+/// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations, --results, --with, --shard, and those
+/// of add_arm_options().
+void add_play_options(CLI::App& verb, StudyFlags& flags);
 
 void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations);
-
-/// Those of add_play_options(), and --blocked, --csv, --json.
-void add_study_options(CLI::App& verb, Study& study);
-
-void add_svg_option(CLI::App& verb, Study& study);
 
 /// --robot, --config, --set.
 void add_arm_options(CLI::App& verb, experiment::ArmBase& base);
 
-/// Throws, before anything is played, where an output cannot be written or two are the same file, or a shard has no
-/// place for what it plays or is asked for a report.
-void require_writable(const Study& study);
-
-/// What the rows depend on besides the flags of play.
-std::string arguments_of(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms);
-
-/// Each value once, rising.
-std::vector<double> sorted(std::vector<double> values);
-
-/// Prints the report as text or JSON, and writes its files that are asked for: last, so that a full disk takes no more
-/// than the file.
-template <typename Report>
-void give(const Study& study, const Report& report) {
-  study.json ? fmt::print("{}", evaluator::json_text(to_json(report))) : say(to_text(report));
-  std::fflush(stdout);
-  if (!study.csv.empty()) write_file(study.csv, csv_of(rows_of(report), report.played));
-  if constexpr (requires { to_svg(report); }) {
-    if (!study.svg.empty()) write_file(study.svg, to_svg(report));
-  }
-}
-
-void add_study_arms(CLI::App& study, int& exit_code);
-void add_study_factorial(CLI::App& study, int& exit_code);
-void add_study_frontier(CLI::App& study, int& exit_code);
-void add_study_robustness(CLI::App& study, int& exit_code);
-void add_study_sensitivity(CLI::App& study, int& exit_code);
+/// Studies that are arms in worlds (questions.cpp).
+void add_questions(CLI::App& study, int& exit_code);
 void add_study_tune(CLI::App& study, int& exit_code);
 void add_evaluate_policy(CLI::App& study, int& exit_code);
 void add_learn(CLI::App& study, int& exit_code);

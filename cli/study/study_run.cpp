@@ -3,20 +3,20 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
-#include "config/text/installation.hpp"
+#include "evaluator/render/json_values.hpp"
 
 namespace trivela::cli {
 namespace {
 
-log::StudyPlan plan_of(const Study& study, const std::string& name, const std::string& arguments) {
-  const experiment::PlayPlan& plan = study.plan;
+log::StudyPlan plan_of(const StudyFlags& flags, const std::string& name, const std::string& arguments) {
+  const experiment::PlayPlan& plan = flags.plan;
   return {.arguments = fmt::format("program = {}\nstudy = {}\nseed = {}\nmatches = {}\npossessions = {}\n"
                                    "calibrations = {}\n{}",
                                    config::software_version(), name, plan.seed, plan.matches, plan.possessions,
                                    plan.calibrations.size(), arguments),
-          .matches = plan.matches,
-          .shard = study.shard};
+          .matches = plan.matches};
 }
 
 /// A file that is not there yet, in this folder.
@@ -28,20 +28,20 @@ std::string free_name(const std::string& name) {
 
 }  // namespace
 
-StudyRun::StudyRun(const Study& study, const std::string& name, const std::string& arguments, std::size_t arms)
-    : study_(study),
+StudyRun::StudyRun(const StudyFlags& flags, const std::string& name, const std::string& arguments, std::size_t arms)
+    : flags_(flags),
       name_(name),
-      results_(study.results, plan_of(study, name, arguments)),
+      results_(flags.results, plan_of(flags, name, arguments)),
       knows_all_(arms > 0),
-      expected_(static_cast<double>(arms) * log::range_of(study.shard, study.plan.matches).size()) {
-  for (const std::string& file : study.with) results_.take_over(file);
-  if (const auto known = results_.size(); known > 0 && !study.json)
+      expected_(static_cast<double>(arms) * log::range_of(flags.shard, flags.plan.matches).size()) {
+  for (const std::string& file : flags.with) results_.take_over(file);
+  if (const auto known = results_.size(); known > 0 && !flags.json)
     fmt::print(stderr, "trivela: the results of {} matches are known already\n", known);
 }
 
-experiment::KnownPlay StudyRun::play_known(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
-                                           const experiment::PlayPlan& plan, const std::string& what) {
-  const auto range = log::range_of(study_.shard, plan.matches);
+experiment::KnownPlay StudyRun::play(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
+                                     const experiment::PlayPlan& plan, const std::string& what) {
+  const auto range = log::range_of(flags_.shard, plan.matches);
   if (!knows_all_) bar_.restart();
   const double before = knows_all_ ? played_ : 0.0;
   return experiment::play_missing(scenario, arms, plan, what, range, results_, [&](std::size_t done, std::size_t all) {
@@ -54,39 +54,77 @@ experiment::KnownPlay StudyRun::play_known(const sim::Scenario& scenario, const 
   });
 }
 
-void StudyRun::keep() {
+ExitCode StudyRun::keep() {
   bar_.end();
   results_.commit();
   const auto matches = results_.size();
-  if (matches == 0) return warn("interrupted before a match was played");
-  if (!study_.results.empty())
-    return warn(
-        fmt::format("interrupted; {} matches are in {}: the same command goes on from there", matches, study_.results));
-  const std::string file = free_name(name_);
-  results_.save(file);
-  warn(fmt::format("interrupted; {0} matches are in {1}: the same command with --results {1} goes on from there",
-                   matches, file));
+  std::string file = flags_.results;
+  if (matches == 0) {
+    warn("interrupted before a match was played");
+  } else if (!file.empty()) {
+    warn(fmt::format("interrupted; {} matches are in {}: the same command goes on from there", matches, file));
+  } else {
+    file = free_name(name_);
+    results_.save(file);
+    warn(fmt::format("interrupted; {0} matches are in {1}: the same command with --results {1} goes on from there",
+                     matches, file));
+  }
+  return kFailed;
 }
 
-ExitCode StudyRun::run(const std::function<void()>& play_all, const std::function<void()>& report) {
-  try {
-    play_all();
-  } catch (const Interrupted&) {
-    keep();
-    return kFailed;
-  }
+void StudyRun::finish() {
   bar_.end();
-  results_.finish();
-  if (!study_.shard) {
-    report();
+  flags_.shard ? results_.commit() : results_.finish();
+}
+
+namespace {
+
+std::vector<experiment::StudyRow> play_all(StudyRun& run, const experiment::Study& study,
+                                           const experiment::PlayPlan& plan) {
+  std::vector<experiment::StudyRow> rows;
+  for (const experiment::StudyWorld& world : study.worlds) {
+    auto played = run.play(world.scenario, world.arms, plan, world.what).arms;
+    for (std::size_t i = 0; i < played.size(); ++i) rows.push_back({world.labels[i], std::move(played[i])});
+  }
+  return rows;
+}
+
+void give(const StudyFlags& flags, const experiment::StudyReport& report) {
+  flags.json ? fmt::print("{}", evaluator::json_text(report.json)) : say(report.text);
+  std::fflush(stdout);
+  if (!flags.csv.empty()) write_file(flags.csv, report.csv);
+  if (!flags.svg.empty()) write_file(flags.svg, report.svg);
+}
+
+}  // namespace
+
+ExitCode run_study(StudyFlags flags, const std::function<experiment::Study(const sim::Scenario&)>& make) {
+  flags.require_writable();
+  const sim::Scenario scenario = flags.world.load();
+  const experiment::Study study = make(scenario);
+  flags.draw_calibrations(scenario);
+  const std::vector<experiment::Arm>& arms = study.worlds.front().arms;
+  if (flags.calibrations == 0) warn_of_shared_robots(scenario, arms);
+  for (const experiment::Arm& arm : arms) check_playable(scenario, arm, flags.plan.possessions);
+  std::size_t all = 0;
+  for (const experiment::StudyWorld& world : study.worlds) all += world.arms.size();
+  StudyRun run{flags, study.name, arguments_of(study), all};
+  std::vector<experiment::StudyRow> rows;
+  try {
+    rows = play_all(run, study, flags.plan);
+  } catch (const StudyRun::Interrupted&) {
+    return run.keep();
+  }
+  run.finish();
+  if (!flags.shard) {
+    give(flags, report_of(study, std::move(rows), flags.played(scenario)));
     return kDone;
   }
-  const auto range = log::range_of(study_.shard, study_.plan.matches);
+  const auto range = log::range_of(flags.shard, flags.plan.matches);
   fmt::print(
       "shard {}: matches {} to {} of {} are in {}. For the report give this command --with and the files of all "
-      "shards, "
-      "in place of --shard and --results\n",
-      study_.shard->text(), range.begin, range.end - 1, study_.plan.matches, study_.results);
+      "shards, in place of --shard and --results\n",
+      flags.shard->text(), range.begin, range.end - 1, flags.plan.matches, flags.results);
   return kDone;
 }
 

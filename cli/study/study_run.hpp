@@ -8,6 +8,7 @@
 #include "cli/launch/stop_request.hpp"
 #include "cli/study/study.hpp"
 #include "cli/verbs.hpp"
+#include "experiment/study/study.hpp"
 #include "log/shards/study_results.hpp"
 
 namespace trivela::cli {
@@ -18,31 +19,23 @@ class StudyRun {
  public:
   /// `arguments`: everything that the study's rows depend on but its flags of play, as text. `arms`: that it will play
   /// in all; 0: nobody knows. Throws std::runtime_error where --results or --with cannot be used.
-  StudyRun(const Study& study, const std::string& name, const std::string& arguments, std::size_t arms);
+  StudyRun(const StudyFlags& flags, const std::string& name, const std::string& arguments, std::size_t arms);
 
   /// Plays what the results lack and gives what is known then. Throws Interrupted where somebody asks to stop.
-  experiment::KnownPlay play_known(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
-                                   const experiment::PlayPlan& plan, const std::string& what);
+  experiment::KnownPlay play(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
+                             const experiment::PlayPlan& plan, const std::string& what);
 
-  /// The arms of play_known().
-  std::vector<experiment::ArmTally> play(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
-                                         const std::string& what) {
-    return play_known(scenario, arms, study_.plan, what).arms;
-  }
+  /// Somebody asked to stop: keeps what was played, and says how to go on from there.
+  ExitCode keep();
 
-  /// `play_all`, then `report` unless this is a shard. Stopped: what was played is kept, and said where.
-  ExitCode run(const std::function<void()>& play_all, const std::function<void()>& report);
-
-  /// Keeps what was played, and says how to go on from there.
-  void keep();
-
-  void finish() { results_.finish(); }
+  /// What was asked for is there.
+  void finish();
 
   /// Somebody asked to stop.
   struct Interrupted {};
 
  private:
-  const Study& study_;
+  const StudyFlags& flags_;
   std::string name_;
   StopRequest stop_;  // before the results, which the first one must not leave behind
   log::StudyResults results_;
@@ -51,5 +44,9 @@ class StudyRun {
   double expected_ = 0.0;  // of those that are not known; where nobody knows: of this step
   double played_ = 0.0;
 };
+
+/// Plays the study that `make` makes of the scenario, and gives its report: printed as text or JSON, and the files that
+/// were asked for last, so that a full disk takes no more than the file. A shard's part has no report.
+ExitCode run_study(StudyFlags flags, const std::function<experiment::Study(const sim::Scenario&)>& make);
 
 }  // namespace trivela::cli

@@ -13,14 +13,12 @@
 namespace trivela::cli {
 namespace {
 
-struct TuneFlags {
+struct TuneFlags : StudyFlags {
   std::string policy;
   std::vector<std::string> settings;
   int rounds = 4;
   std::string out;
   std::optional<std::uint64_t> held_out_seed;
-  Study study;
-  experiment::ArmBase base{config::shipped("default.toml").string(), {}, {}};
 };
 
 std::vector<experiment::Coordinate> space_of(const TuneFlags& flags, kicking::PolicyName policy) {
@@ -37,14 +35,13 @@ std::vector<experiment::Coordinate> space_of(const TuneFlags& flags, kicking::Po
 
 /// The command that does the same again, for the file.
 std::string command_of(const TuneFlags& flags, std::uint64_t held_out_seed) {
-  const Study& study = flags.study;
-  const experiment::PlayPlan& plan = study.plan;
   std::string text = fmt::format(
       "trivela study tune {} --matches {} --possessions {} --calibrations {} --seed {} --held-out-seed {} --rounds {}",
-      flags.policy, plan.matches, plan.possessions, study.calibrations, plan.seed, held_out_seed, flags.rounds);
+      flags.policy, flags.plan.matches, flags.plan.possessions, flags.calibrations, flags.plan.seed, held_out_seed,
+      flags.rounds);
   const TuneFlags defaults;
-  if (study.world.file != defaults.study.world.file) text += " --scenario " + study.world.file;
-  for (const std::string& line : study.world.changes) text += " --world '" + line + '\'';
+  if (flags.world.file != defaults.world.file) text += " --scenario " + flags.world.file;
+  for (const std::string& line : flags.world.changes) text += " --world '" + line + '\'';
   if (flags.base.config != defaults.base.config) text += " --config " + flags.base.config;
   for (const std::string& robot : flags.base.robots) text += " --robot " + robot;
   for (const std::string& line : flags.base.overrides) text += " --set '" + line + '\'';
@@ -55,130 +52,93 @@ std::string command_of(const TuneFlags& flags, std::uint64_t held_out_seed) {
 /// A shard has played its part of the step that the search is at; the next one depends on all parts.
 struct StepPlayed {};
 
-/// What the rows depend on besides the flags of play.
-std::string all_arguments_of(const experiment::TuneReport& report, const sim::Scenario& scenario,
-                             const experiment::Arm& arm, std::uint64_t held_out_seed, int rounds) {
-  std::string text = fmt::format("rounds = {}\nheld_out_seed = {}\n", rounds, held_out_seed) +
-                     arguments_of(scenario, {arm}) + "\n### space\n";
-  for (const experiment::Coordinate& coordinate : report.space)
-    text += fmt::format("{}\n", fmt::join(coordinate.choices, "\n"));
-  return text;
-}
-
-/// Plays arms that differ in their settings alone.
-class Player {
- public:
-  Player(StudyRun& run, const sim::Scenario& scenario, experiment::Arm arm)
-      : run_(run), scenario_(scenario), arm_(std::move(arm)) {}
-
-  std::vector<experiment::ArmTally> play(const std::vector<config::Settings>& settings,
-                                         const experiment::PlayPlan& plan, const std::string& what) {
-    std::vector<experiment::Arm> arms(settings.size(), arm_);
-    for (std::size_t i = 0; i < settings.size(); ++i) arms[i].settings = settings[i];
-    auto kept = run_.play_known(scenario_, arms, plan, what);
-    if (!kept.whole) throw StepPlayed{};
-    return std::move(kept.arms);
-  }
-
- private:
-  StudyRun& run_;
-  const sim::Scenario& scenario_;
-  experiment::Arm arm_;
-};
-
-experiment::TuneMatches matches_of(const Study& study) {
-  return {study.plan.seed, study.plan.matches, study.plan.possessions, study.plan.calibrations.size()};
-}
-
-/// Searches, and plays what was found, and what it began with, on other matches and calibrations.
-void search(experiment::TuneReport& report, Player& player, const Study& study, const Study& other, int rounds) {
-  experiment::TuneState& state = report.state;
-  const config::Settings start = state.settings;
-  experiment::coordinate_search(
-      report.space, rounds,
-      [&](const std::vector<config::Settings>& settings) {
-        return player.play(settings, study.plan,
-                           fmt::format("{} settings tried, {} changed", state.tried, state.steps.size()));
-      },
-      state);
-  auto played = player.play({start, state.settings}, other.plan, "held out");
-  report.held_out_start = std::move(played[0]);
-  report.held_out_best = std::move(played[1]);
+/// Plays the same matches with each of the settings.
+std::vector<experiment::ArmTally> play(StudyRun& run, const sim::Scenario& scenario, const experiment::Arm& arm,
+                                       const std::vector<config::Settings>& settings, const experiment::PlayPlan& plan,
+                                       const std::string& what) {
+  std::vector<experiment::Arm> arms(settings.size(), arm);
+  for (std::size_t i = 0; i < settings.size(); ++i) arms[i].settings = settings[i];
+  auto known = run.play(scenario, arms, plan, what);
+  if (!known.whole) throw StepPlayed{};
+  return std::move(known.arms);
 }
 
 void check(const TuneFlags& flags) {
-  require_writable(flags.study);
+  flags.require_writable();
   require_writable("--out", flags.out);
-  if (flags.study.shard ? !flags.out.empty() : flags.out.empty())
-    throw UsageError{flags.study.shard ? "--out and --shard: a part of the matches finds no settings"
-                                       : "--out is required"};
+  if (flags.shard ? !flags.out.empty() : flags.out.empty())
+    throw UsageError{flags.shard ? "--out and --shard: a part of the matches finds no settings" : "--out is required"};
 }
 
-/// Plays the shard's part of the next step that is not known yet.
-ExitCode play_step(StudyRun& run, const TuneFlags& flags, const std::function<void()>& search) {
-  bool ended = true;
-  try {
-    search();
-  } catch (const StudyRun::Interrupted&) {
-    run.keep();
-    return kFailed;
-  } catch (const StepPlayed&) {
-    ended = false;
-  }
+ExitCode say_step(StudyRun& run, const TuneFlags& flags, bool ended) {
   run.finish();
-  const std::string shard = flags.study.shard->text();
+  const std::string shard = flags.shard->text();
   say(ended ? fmt::format(
                   "shard {}: the search has ended; this command with --out in place of --shard gives what it found\n",
                   shard)
             : fmt::format("shard {}: its part of this step is in {}; go on --with the results of all shards\n", shard,
-                          flags.study.results));
+                          flags.results));
   return ended ? kDone : kDoneWithLoss;
 }
 
 ExitCode write_best(StudyRun& run, const experiment::TuneReport& report, const TuneFlags& flags, bool interrupted) {
-  if (report.state.tried == 0) {
-    run.keep();
-    return kFailed;
-  }
+  if (report.state.tried == 0) return run.keep();
   write_file(flags.out, experiment::to_settings_file(report, flags.out));
   say(to_text(report) + flags.out + "\n");
-  if (!interrupted) {
-    run.finish();
-    return kDone;
+  if (interrupted) {
+    warn(fmt::format("interrupted; {} has the best so far", flags.out));
+    return run.keep();
   }
-  warn(fmt::format("interrupted; {} has the best so far", flags.out));
-  run.keep();
-  return kFailed;
+  run.finish();
+  return kDone;
 }
 
-ExitCode study_tune(const TuneFlags& flags) {
+/// Searches, and plays what was found, and what it began with, on other matches and calibrations.
+ExitCode search(StudyRun& run, experiment::TuneReport& report, const TuneFlags& flags, const TuneFlags& other,
+                const sim::Scenario& scenario, const experiment::Arm& arm) {
+  experiment::TuneState& state = report.state;
+  try {
+    const auto step = [&](const std::vector<config::Settings>& settings) {
+      return play(run, scenario, arm, settings, flags.plan,
+                  fmt::format("{} settings tried, {} changed", state.tried, state.steps.size()));
+    };
+    const config::Settings start = state.settings;
+    experiment::coordinate_search(report.space, flags.rounds, step, state);
+    auto played = play(run, scenario, arm, {start, state.settings}, other.plan, "held out");
+    report.held_out_start = std::move(played[0]);
+    report.held_out_best = std::move(played[1]);
+  } catch (const StudyRun::Interrupted&) {
+    return flags.shard ? run.keep() : write_best(run, report, flags, true);
+  } catch (const StepPlayed&) {
+    return say_step(run, flags, false);
+  }
+  return flags.shard ? say_step(run, flags, true) : write_best(run, report, flags, false);
+}
+
+ExitCode study_tune(TuneFlags flags) {
   check(flags);
-  const sim::Scenario scenario = flags.study.world.load();
-  experiment::Arm arm = experiment::arms_of(flags.policy, flags.base).front();
-  experiment::check_playable(scenario, arm, flags.study.plan.possessions);
-  Study study = flags.study, other = flags.study;
-  other.plan.seed = flags.held_out_seed.value_or(study.plan.seed + 1);
-  if (other.plan.seed == study.plan.seed) throw UsageError{"--held-out-seed: the same as --seed, nothing is held out"};
+  const sim::Scenario scenario = flags.world.load();
+  const experiment::Arm arm = experiment::arms_of(flags.policy, flags.base).front();
+  experiment::check_playable(scenario, arm, flags.plan.possessions);
+  TuneFlags other = flags;
+  other.plan.seed = flags.held_out_seed.value_or(flags.plan.seed + 1);
+  if (other.plan.seed == flags.plan.seed) throw UsageError{"--held-out-seed: the same as --seed, nothing is held out"};
   experiment::TuneReport report{.policy = flags.policy,
                                 .command = command_of(flags, other.plan.seed),
-                                .scenario = study.scenario_name(),
+                                .tuning = flags.played(scenario),
+                                .held_out = other.played(scenario),
                                 .space = space_of(flags, *arm.policy),
                                 .state = {.settings = arm.settings}};
-  report.state.settings.run.scenario = study.world.file;  // whose best settings they are
-  study.draw_calibrations(scenario, flags.base);
-  other.draw_calibrations(scenario, flags.base);
-  report.tuning = matches_of(study);
-  report.held_out = matches_of(other);
-  StudyRun run{study, "tune", all_arguments_of(report, scenario, arm, other.plan.seed, flags.rounds), 0};
-  Player player{run, scenario, std::move(arm)};
-  const auto whole_search = [&] { search(report, player, study, other, flags.rounds); };
-  if (study.shard) return play_step(run, flags, whole_search);
-  try {
-    whole_search();
-  } catch (const StudyRun::Interrupted&) {
-    return write_best(run, report, flags, true);
-  }
-  return write_best(run, report, flags, false);
+  report.state.settings.run.scenario = flags.world.file;  // whose best settings they are
+  flags.draw_calibrations(scenario);
+  other.draw_calibrations(scenario);
+  std::string arguments =
+      fmt::format("rounds = {}\nheld_out_seed = {}\n", flags.rounds, other.plan.seed) +
+      experiment::arguments_of({.name = "tune", .whom = "", .worlds = {{"tune", scenario, {arm}, {}}}});
+  for (const experiment::Coordinate& coordinate : report.space)
+    arguments += fmt::format("{}\n", fmt::join(coordinate.choices, "\n"));
+  StudyRun run{flags, "tune", arguments, 0};
+  return search(run, report, flags, other, scenario, arm);
 }
 
 }  // namespace
@@ -186,9 +146,9 @@ ExitCode study_tune(const TuneFlags& flags) {
 void add_study_tune(CLI::App& study, int& exit_code) {
   auto* const verb = study.add_subcommand("tune", "Find a policy's best settings in a simulated world");
   const auto flags = std::make_shared<TuneFlags>();
-  flags->study.plan.seed = 1001;  // other matches than those of the studies
-  flags->study.plan.possessions = 20;
-  flags->study.calibrations = 20;
+  flags->plan.seed = 1001;  // other matches than those of the studies
+  flags->plan.possessions = 20;
+  flags->calibrations = 20;
   verb->add_option("policy", flags->policy, "Whose settings")
       ->required()
       ->check(CLI::IsMember(experiment::tuned_policies()));
@@ -202,8 +162,7 @@ void add_study_tune(CLI::App& study, int& exit_code) {
   verb->add_option("--held-out-seed", flags->held_out_seed,
                    "Matches and calibrations of the final check; default the next")
       ->check(seeds());
-  add_play_options(*verb, flags->study);
-  add_arm_options(*verb, flags->base);
+  add_play_options(*verb, *flags);
   verb->footer(
       "Coordinate search: each setting in turn gets the value with the most shots on target per opportunity, on the "
       "same\n"

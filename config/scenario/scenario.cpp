@@ -73,6 +73,10 @@ double half_minutes(const Simulator& settings, const sim::Scenario& scenario) {
 
 std::string to_toml_text(const sim::Scenario& scenario) { return to_toml(scenario); }
 
+std::map<std::string, std::string> scenario_values(const sim::Scenario& scenario) {
+  return values_in(to_toml(scenario));
+}
+
 Settings on_field_of(const sim::Scenario& scenario, Settings settings) {
   settings.run.field_file.clear();
   return on_field({scenario.field, scenario.rules}, std::move(settings));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -22,6 +23,9 @@ double half_minutes(const Simulator& settings, const sim::Scenario& scenario);
 
 /// Every value of the scenario as TOML that load_scenario() reads back.
 std::string to_toml_text(const sim::Scenario& scenario);
+
+/// Every value by its key, e.g. "kicker.delay_s", as TOML has it.
+std::map<std::string, std::string> scenario_values(const sim::Scenario& scenario);
 
 /// Settings of nodes that play in this scenario: its goal, its field, its rules; whatever file they came from.
 Settings on_field_of(const sim::Scenario& scenario, Settings settings);

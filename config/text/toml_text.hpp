@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <map>
 #include <numbers>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -121,6 +123,19 @@ std::string to_toml(S value) {
   TableText text{""};
   fields(text, value);
   return text.text();
+}
+
+/// Every value of such a text by its key, e.g. "policy.predictive.threshold".
+inline std::map<std::string, std::string> values_in(const std::string& toml) {
+  std::map<std::string, std::string> values;
+  std::istringstream lines{toml};
+  std::string section;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('[')) section = line.substr(1, line.size() - 2) + '.';
+    if (const auto equals = line.find(" = "); equals != std::string::npos)
+      values[section + line.substr(0, equals)] = line.substr(equals + 3);
+  }
+  return values;
 }
 
 }  // namespace trivela::config

@@ -21,13 +21,13 @@ inline constexpr const char* kOldTable = "old";  ///< another hand-made one for 
 /// One way to play: what the robots decide by and what they know of themselves. The same opportunities can be played
 /// with any number of arms.
 struct Arm {
-  std::string name;
+  std::string name{};
   /// In charge, where `random` is empty; none: who plays is said by settings.kick_decision, as on the bus.
   std::optional<kicking::PolicyName> policy = kicking::PolicyName::kMoving;
   std::string table = kNewTable;  ///< height tables: kNewTable or kOldTable
   config::Settings settings{};
   std::vector<config::Robot> robots{config::Robot{}};  ///< robot n's at n - 1; a team may have more, its rest the last
-  std::vector<robot::PolicyChance> random;             ///< drawn for each possession
+  std::vector<robot::PolicyChance> random{};           ///< drawn for each possession
   bool own_robots = false;                             ///< calibrations of an experiment leave `robots` as they are
 };
 

@@ -15,34 +15,25 @@ bool in_two_matches(const ArmTally& arm, Measure measure) {
   return std::ranges::count_if(arm, [&](const MatchTally& match) { return counts_of(match, measure).n > 0; }) >= 2;
 }
 
+/// Half the width of the 95 % interval of an estimate to whose error each match adds its `u`: Student's t times the
+/// standard error (cluster_variance()). NaN: fewer than two matches.
+double half_width_of(const ArmTally& arm, const std::vector<double>& u) {
+  std::vector<evaluator::stats::Influence> influences;
+  for (std::size_t m = 0; m < arm.size(); ++m)
+    influences.push_back({static_cast<std::uint32_t>(m), arm[m].calibration, u[m]});
+  const auto variance = evaluator::stats::cluster_variance(influences);
+  return variance ? variance->reach() : std::nan("");
+}
+
 }  // namespace
 
 bool has_interval(const Effect& effect) { return std::isfinite(effect.ci.lo) && std::isfinite(effect.ci.hi); }
 
 MatchTally total_of(const ArmTally& matches) {
   MatchTally total;
-  for (const MatchTally& match : matches) {
-    total.opportunities += match.opportunities;
-    total.kicks += match.kicks;
-    total.on_target += match.on_target;
-    total.blocked += match.blocked;
-    total.bounced += match.bounced;
-    total.goals += match.goals;
-    total.true_on_target += match.true_on_target;
-  }
+  for (const MatchTally& match : matches)
+    for (const log::TallyField& count : log::kTallyFields) total.*count.field += match.*count.field;
   return total;
-}
-
-std::vector<evaluator::stats::Influence> influences_of(const ArmTally& arm, const std::vector<double>& u) {
-  std::vector<evaluator::stats::Influence> influences;
-  for (std::size_t m = 0; m < arm.size(); ++m)
-    influences.push_back({static_cast<std::uint32_t>(m), arm[m].calibration, u[m]});
-  return influences;
-}
-
-double half_width_of(const ArmTally& arm, const std::vector<double>& u) {
-  const auto variance = evaluator::stats::cluster_variance(influences_of(arm, u));
-  return variance ? variance->reach() : std::nan("");
 }
 
 evaluator::stats::Counts counts_of(const MatchTally& tally, Measure measure) {
@@ -55,6 +46,10 @@ evaluator::stats::Counts counts_of(const MatchTally& tally, Measure measure) {
       return {tally.goals, tally.opportunities};
     case Measure::kBounced:
       return {tally.bounced, tally.on_target};
+    case Measure::kBlocked:
+      return {tally.blocked, tally.kicks};
+    case Measure::kKicks:
+      return {tally.kicks, tally.opportunities};
     case Measure::kPerOpportunity:
       break;
   }
@@ -80,6 +75,11 @@ Effect contrast(std::span<const Term> terms, Measure measure) {
   const double reach = in_matches && varies ? half_width_of(*terms.front().arm, influences) : std::nan("");
   effect.ci = {effect.value - reach, effect.value + reach};
   return effect;
+}
+
+Effect difference(const ArmTally& newer, const ArmTally& older, Measure measure) {
+  const Term terms[] = {{&newer, 1.0}, {&older, -1.0}};
+  return contrast(terms, measure);
 }
 
 Effect share_of(const ArmTally& matches, Measure measure) {
@@ -109,6 +109,23 @@ Effect kick_ratio(const ArmTally& older, const ArmTally& newer) {
   }
   const double reach = half_width_of(older, influences);
   return {n2 / n1, {n2 / n1 * std::exp(-reach), n2 / n1 * std::exp(reach)}};
+}
+
+Effect jackknife(const std::vector<const ArmTally*>& arms,
+                 const std::function<double(const std::vector<MatchTally>&)>& of) {
+  std::vector<MatchTally> totals;
+  totals.reserve(arms.size());
+  for (const ArmTally* arm : arms) totals.push_back(total_of(*arm));
+  const double value = of(totals);
+  const ArmTally& matches = *arms.front();
+  const auto without_match = [&](std::size_t m) {
+    std::vector<MatchTally> rest = totals;
+    for (std::size_t a = 0; a < arms.size(); ++a)
+      for (const log::TallyField& count : log::kTallyFields) rest[a].*count.field -= (*arms[a])[m].*count.field;
+    return of(rest);
+  };
+  const double reach = half_width_of(matches, evaluator::stats::jackknife(matches.size(), without_match));
+  return {value, {value - reach, value + reach}};
 }
 
 }  // namespace trivela::experiment

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,7 +19,9 @@ enum class Measure {
   kUnblocked,       ///< on target of the kicks that nobody blocked
   kPerOpportunity,  ///< on target of opportunities
   kGoals,           ///< goals of opportunities
-  kBounced          ///< bounced of kicks on target
+  kBounced,         ///< bounced of kicks on target
+  kBlocked,         ///< blocked of kicks
+  kKicks            ///< kicks of opportunities
 };
 
 /// A number with its 95 % interval. NaN: there are too few kicks for it, or for the interval alone.
@@ -30,14 +33,6 @@ struct Effect {
 bool has_interval(const Effect& effect);
 
 MatchTally total_of(const ArmTally& matches);
-
-/// What each match of the arms adds to an estimate's error, and to what calibration it belongs. `u`: one number a
-/// match, in the order of `arm`.
-std::vector<evaluator::stats::Influence> influences_of(const ArmTally& arm, const std::vector<double>& u);
-
-/// Half the width of the 95 % interval of an estimate with these influences: Student's t times the standard error, by
-/// match, and by calibration where there are enough of them (cluster_variance()). NaN: fewer than two matches.
-double half_width_of(const ArmTally& arm, const std::vector<double>& u);
 
 /// The measure's counts of one match.
 evaluator::stats::Counts counts_of(const MatchTally& tally, Measure measure);
@@ -54,6 +49,9 @@ struct Term {
 /// differ. Nor have arms of which each has all or nothing on target.
 Effect contrast(std::span<const Term> terms, Measure measure);
 
+/// The share of `newer` less that of `older`: contrast().
+Effect difference(const ArmTally& newer, const ArmTally& older, Measure measure);
+
 /// One arm's share. Its interval is contrast()'s, which is symmetric, cut off at 0 and 1. Where all or nothing was on
 /// target, so that the linearised variance is 0: Wilson's, by match where there are enough of them.
 Effect share_of(const ArmTally& matches, Measure measure);
@@ -61,5 +59,10 @@ Effect share_of(const ArmTally& matches, Measure measure);
 /// Kicks of `newer` over kicks of `older`, the interval that of the logarithm, by the same linearisation. None where
 /// `older` never kicks; no interval where one of them kicks in fewer than two matches.
 Effect kick_ratio(const ArmTally& older, const ArmTally& newer);
+
+/// A function of the arms' totals over all matches with its 95 % interval: the jackknife over matches, by match and
+/// calibration (cluster_variance()). No interval where it has no finite value without one of the matches.
+Effect jackknife(const std::vector<const ArmTally*>& arms,
+                 const std::function<double(const std::vector<MatchTally>&)>& of);
 
 }  // namespace trivela::experiment

@@ -7,6 +7,7 @@
 
 #include "experiment/run/calibrations.hpp"
 #include "experiment/study/effects.hpp"
+#include "log/shards/shard.hpp"
 #include "log/shards/study_results.hpp"
 #include "sim/scenario.hpp"
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
 #include "evaluator/render/simulated.hpp"
@@ -13,23 +13,13 @@
 namespace trivela::experiment {
 namespace {
 
-struct Count {
-  const char* key;
-  std::int64_t MatchTally::*field;
-};
-constexpr std::array kCounts{Count{"opportunities", &MatchTally::opportunities},
-                             Count{"kicks", &MatchTally::kicks},
-                             Count{"on_target", &MatchTally::on_target},
-                             Count{"blocked", &MatchTally::blocked},
-                             Count{"bounced", &MatchTally::bounced},
-                             Count{"goals", &MatchTally::goals}};
-
-double part_of(std::int64_t part, std::int64_t whole) { return static_cast<double>(part) / static_cast<double>(whole); }
+/// Those of a row; what is true of all kicks is said where the labels are doubted.
+constexpr auto kCounts = std::span{log::kTallyFields}.first<6>();
 
 std::string csv_cell(double number) { return std::isfinite(number) ? fmt::format("{:.6f}", number) : ""; }
 
 std::string csv_cells(const Effect& effect) {
-  return fmt::format("{},{},{}", csv_cell(effect.value), csv_cell(effect.ci.lo), csv_cell(effect.ci.hi));
+  return fmt::format("{},{},{},", csv_cell(effect.value), csv_cell(effect.ci.lo), csv_cell(effect.ci.hi));
 }
 
 std::string quoted(const std::string& text) {
@@ -39,8 +29,21 @@ std::string quoted(const std::string& text) {
   return '"' + cell + '"';
 }
 
-bool has_changes(const std::vector<StudyRow>& rows) {
-  return std::ranges::any_of(rows, [](const StudyRow& row) { return row.change.has_value(); });
+/// "12.5", without an interval.
+std::string plain_share(const StudyRow& row, Measure measure) {
+  const auto counts = counts_of(total_of(row.matches), measure);
+  if (counts.n == 0) return "-";
+  return fmt::format("{:.1f}", 100.0 * static_cast<double>(counts.inside) / static_cast<double>(counts.n));
+}
+
+std::vector<std::string> head_of(const StudyRow& row, const std::vector<RowChange>& changes, bool keeper) {
+  std::vector<std::string> head;
+  for (const RowLabel& label : row.labels) head.push_back(evaluator::words(label.key));
+  head.insert(head.end(), {"kicks", "kicks/opp.", "efficiency [%]", "on target/opp. [%]"});
+  if (keeper) head.emplace_back("goals/opp. [%]");
+  head.insert(head.end(), {"blocked [%]", "bounced in [%]"});
+  for (const RowChange& change : changes) head.push_back(change.heading + " [points]");
+  return head;
 }
 
 }  // namespace
@@ -74,66 +77,56 @@ std::string heading(const StudyPlayed& played, const std::string& whom) {
 }
 
 const std::string& StudyRow::label(const std::string& key) const {
-  const auto found = std::ranges::find(labels, key, &Label::key);
+  const auto found = std::ranges::find(labels, key, &RowLabel::key);
   if (found == labels.end()) throw std::out_of_range{"a study's row has no label " + key};
   return found->text;
 }
 
-StudyColumn label_column(const std::string& heading, const std::string& key) {
-  return {heading, [key](const StudyRow& row) { return row.label(key); }};
-}
-
-StudyColumn kicks_column() {
-  return {"kicks", [](const StudyRow& row) { return std::to_string(total_of(row.matches).kicks); }};
-}
-
-StudyColumn kicks_per_opportunity_column(const std::string& heading) {
-  return {heading,
-          [](const StudyRow& row) { return fmt::format("{:.3f}", kicks_per_opportunity(total_of(row.matches))); }};
-}
-
-StudyColumn share_column(const std::string& heading, Measure measure) {
-  return {heading, [measure](const StudyRow& row) { return share_text(share_of(row.matches, measure)); }};
-}
-
-std::vector<StudyColumn> share_columns(const StudyPlayed& played) {
-  std::vector<StudyColumn> columns{share_column("efficiency [%]", played.efficiency),
-                                   share_column("on target/opp. [%]", Measure::kPerOpportunity)};
-  if (played.keeper) columns.push_back(share_column("goals/opp. [%]", Measure::kGoals));
-  return columns;
-}
-
-std::string table_of(const std::vector<StudyRow>& rows, const std::vector<StudyColumn>& columns) {
-  std::vector<std::vector<std::string>> cells(1);
-  for (const StudyColumn& column : columns) cells[0].push_back(column.heading);
+std::string table_of(const std::vector<StudyRow>& rows, const std::vector<RowChange>& changes,
+                     const StudyPlayed& played) {
+  std::vector<std::vector<std::string>> table{head_of(rows.front(), changes, played.keeper)};
   for (const StudyRow& row : rows) {
-    auto& line = cells.emplace_back();
-    for (const StudyColumn& column : columns) line.push_back(column.cell(row));
+    std::vector<std::string>& line = table.emplace_back();
+    for (const RowLabel& label : row.labels) line.push_back(label.text.empty() ? "-" : label.text);
+    const auto share = [&](Measure measure) { return share_of(row.matches, measure); };
+    line.insert(line.end(),
+                {fmt::format("{}", total_of(row.matches).kicks), fmt::format("{:.3f}", share(Measure::kKicks).value),
+                 share_text(share(played.efficiency)), share_text(share(Measure::kPerOpportunity))});
+    if (played.keeper) line.push_back(share_text(share(Measure::kGoals)));
+    line.insert(line.end(), {plain_share(row, Measure::kBlocked), plain_share(row, Measure::kBounced)});
+    for (const Effect& change : row.changes) line.push_back(points_text(change));
+    line.resize(table.front().size());
   }
-  return evaluator::text_table(cells);
+  return evaluator::text_table(table);
 }
 
-std::string csv_of(const std::vector<StudyRow>& rows, const StudyPlayed& played) {
+std::string csv_of(const std::vector<StudyRow>& rows, const std::vector<RowChange>& changes,
+                   const StudyPlayed& played) {
   std::string csv;
-  const bool changes = has_changes(rows);
-  for (const StudyRow::Label& label : rows.front().labels) csv += label.key + ',';
-  for (const Count& count : kCounts) csv += fmt::format("{},", count.key);
-  csv += "efficiency,efficiency_low,efficiency_high,per_opportunity,per_opportunity_low,per_opportunity_high,";
-  if (changes) csv += "change,change_low,change_high,";
+  for (const RowLabel& label : rows.front().labels) csv += label.key + ',';
+  for (const log::TallyField& count : kCounts) csv += fmt::format("{},", count.name);
+  const auto add_head = [&](std::string key) {
+    std::ranges::replace(key, '/', '_');
+    csv += fmt::format("{0},{0}_low,{0}_high,", key);
+  };
+  add_head("efficiency");
+  add_head("per_opportunity");
+  for (const RowChange& change : changes) add_head(change.key);
   csv += "simulated\n";
   for (const StudyRow& row : rows) {
     const MatchTally total = total_of(row.matches);
-    for (const StudyRow::Label& label : row.labels) csv += quoted(label.text) + ',';
-    for (const Count& count : kCounts) csv += fmt::format("{},", total.*count.field);
-    csv += fmt::format("{},{},", csv_cells(share_of(row.matches, played.efficiency)),
-                       csv_cells(share_of(row.matches, Measure::kPerOpportunity)));
-    if (changes) csv += (row.change ? csv_cells(*row.change) : ",,") + ',';
+    for (const RowLabel& label : row.labels) csv += quoted(label.text) + ',';
+    for (const log::TallyField& count : kCounts) csv += fmt::format("{},", total.*count.field);
+    csv += csv_cells(share_of(row.matches, played.efficiency)) +
+           csv_cells(share_of(row.matches, Measure::kPerOpportunity));
+    for (std::size_t i = 0; i < changes.size(); ++i) csv += i < row.changes.size() ? csv_cells(row.changes[i]) : ",,,";
     csv += "1\n";
   }
   return csv;
 }
 
-Json json_of(const std::string& study, const std::vector<StudyRow>& rows, const StudyPlayed& played) {
+Json json_of(const std::string& study, const std::vector<StudyRow>& rows, const std::vector<RowChange>& changes,
+             const StudyPlayed& played) {
   Json json{{"simulated", true},
             {"study", study},
             {"scenario", played.scenario},
@@ -145,20 +138,17 @@ Json json_of(const std::string& study, const std::vector<StudyRow>& rows, const 
             {"rows", Json::array()}};
   for (const StudyRow& row : rows) {
     Json cells;
-    for (const StudyRow::Label& label : row.labels) cells[label.key] = label.text.empty() ? Json() : Json(label.text);
+    for (const RowLabel& label : row.labels) cells[label.key] = label.text.empty() ? Json() : Json(label.text);
     const MatchTally total = total_of(row.matches);
-    for (const Count& count : kCounts) cells[count.key] = total.*count.field;
+    for (const log::TallyField& count : kCounts) cells[count.name] = total.*count.field;
     cells["efficiency"] = json_of(share_of(row.matches, played.efficiency));
     cells["on_target_per_opportunity"] = json_of(share_of(row.matches, Measure::kPerOpportunity));
-    if (row.change) cells["change"] = json_of(*row.change);
+    for (std::size_t i = 0; i < row.changes.size(); ++i)
+      cells[Json::json_pointer('/' + changes[i].key)] = json_of(row.changes[i]);
     json["rows"].push_back(std::move(cells));
   }
   return json;
 }
-
-double kicks_per_opportunity(const MatchTally& total) { return part_of(total.kicks, total.opportunities); }
-double on_target_per_opportunity(const MatchTally& total) { return part_of(total.on_target, total.opportunities); }
-double efficiency_of(const MatchTally& total) { return part_of(total.on_target, total.kicks); }
 
 std::string label_warning(const std::string& arm, const ArmTally& observed) {
   if (total_of(observed).kicks == 0) return {};

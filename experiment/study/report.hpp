@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,7 @@ Json json_of(const Effect& effect);
 
 /// What a study played.
 struct StudyPlayed {
-  std::string scenario;  ///< name of its file, and what was changed of it
+  std::string scenario{};  ///< name of its file, and what was changed of it
   std::uint64_t seed = 1;
   std::uint32_t matches = 0;
   std::uint32_t possessions = 0;              ///< opportunities a match
@@ -39,47 +38,42 @@ struct StudyPlayed {
 /// "SIMULATED ... 400 matches of 45 opportunities, the same for every WHOM; ..."
 std::string heading(const StudyPlayed& played, const std::string& whom);
 
-/// A row of every study: what tells it from the others, and its matches.
+/// What tells a row of a study from the others: "threshold", with a text; empty: this row has none.
+struct RowLabel {
+  std::string key;
+  std::string text;
+};
+using RowLabels = std::vector<RowLabel>;  ///< of the same keys in all rows of a study
+
+/// A comparison of a row with others: its name as a path in JSON ("minus_first/efficiency"), and for people.
+struct RowChange {
+  std::string key;
+  std::string heading;
+};
+
+/// An arm in a world of a study, and its matches.
 struct StudyRow {
-  struct Label {
-    std::string key;   ///< "threshold"
-    std::string text;  ///< empty: this row has none
-    bool operator==(const Label&) const = default;
-  };
-  std::vector<Label> labels;  ///< of the same keys in all rows
+  RowLabels labels;
   ArmTally matches;
-  /// What the row changes of another one, where the study has such rows.
-  std::optional<Effect> change{};
+  std::vector<Effect> changes{};  ///< in the order of the study's; empty: it is what others are compared with
 
   const std::string& label(const std::string& key) const;
 };
 
-/// A column of a table for people.
-struct StudyColumn {
-  std::string heading;
-  std::function<std::string(const StudyRow&)> cell;
-};
+// Rows of a study in each form. `changes`: those that its rows may have.
 
-StudyColumn label_column(const std::string& heading, const std::string& key);
-StudyColumn kicks_column();
-StudyColumn kicks_per_opportunity_column(const std::string& heading = "kicks/opp.");
-StudyColumn share_column(const std::string& heading, Measure measure);
-
-/// efficiency [%], on target/opp. [%] and, with a keeper, goals/opp. [%].
-std::vector<StudyColumn> share_columns(const StudyPlayed& played);
-
-std::string table_of(const std::vector<StudyRow>& rows, const std::vector<StudyColumn>& columns);
+/// Labels, kicks, kicks and shots on target per opportunity, efficiency, goals where there is a keeper, blocked of
+/// kicks, bounced of those on target, changes.
+std::string table_of(const std::vector<StudyRow>& rows, const std::vector<RowChange>& changes,
+                     const StudyPlayed& played);
 
 /// Labels; opportunities, kicks, on_target, blocked, bounced, goals; efficiency and per_opportunity, each with its
-/// interval (_low, _high); change, where rows have it; simulated. Empty: there are too few kicks.
-std::string csv_of(const std::vector<StudyRow>& rows, const StudyPlayed& played);
+/// interval (_low, _high); changes; simulated. Empty: there are too few kicks.
+std::string csv_of(const std::vector<StudyRow>& rows, const std::vector<RowChange>& changes, const StudyPlayed& played);
 
 /// The head of every study's JSON, with "rows" of the same columns.
-Json json_of(const std::string& study, const std::vector<StudyRow>& rows, const StudyPlayed& played);
-
-double kicks_per_opportunity(const MatchTally& total);
-double on_target_per_opportunity(const MatchTally& total);
-double efficiency_of(const MatchTally& total);
+Json json_of(const std::string& study, const std::vector<StudyRow>& rows, const std::vector<RowChange>& changes,
+             const StudyPlayed& played);
 
 /// A sentence where the simulator's truth lies outside of what the labels say: a robot's file that is far from the
 /// robot makes wrong labels. Empty: nowhere.

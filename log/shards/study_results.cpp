@@ -24,13 +24,9 @@ FileTaken taken_file(const fs::path& path, const std::string& why) {
   return FileTaken(fmt::format("{}: {}", path.string(), why));
 }
 
-std::string arguments_of(const StudyPlan& plan) {
-  return plan.shard ? stamped_arguments({plan.arguments, *plan.shard, plan.matches}) : plan.arguments;
-}
-
 void create(SQLite::Database& database, const StudyPlan& plan) {
   SQLite::Transaction transaction(database);
-  create_study(database, {arguments_of(plan), plan.range().size(), false});
+  create_study(database, {plan.arguments, plan.matches, false});
   transaction.commit();
 }
 
@@ -45,13 +41,9 @@ std::unique_ptr<SQLite::Database> resume(const fs::path& path, const StudyPlan& 
         database->execAndGet("PRAGMA user_version").getInt() != kStudyResults.version)
       throw taken_file(path, "is there already and has no study results of this version; choose another file");
     check_schema(*database, kStudyResults, path.string());
-    SQLite::Statement known(*database, "SELECT arguments, matches FROM studies");
-    const bool begun = known.executeStep();
-    const std::string arguments = begun ? known.getColumn(0).getString() : "";
-    if (arguments != arguments_of(plan)) throw other_arguments(path, "a study", arguments, arguments_of(plan));
-    if (const std::int64_t matches = known.getColumn(1); matches != plan.range().size())
-      throw other_arguments(path, "a study", fmt::format("matches = {}", matches),
-                            fmt::format("matches = {}", plan.range().size()));
+    SQLite::Statement known(*database, "SELECT arguments FROM studies");
+    const std::string arguments = known.executeStep() ? known.getColumn(0).getString() : "";
+    if (arguments != plan.arguments) throw other_arguments(path, "a study", arguments, plan.arguments);
     return database;
   } catch (const SQLite::Exception& error) {
     if (is_busy(error)) throw taken_file(path, "another run writes to it");
@@ -70,95 +62,71 @@ std::unique_ptr<SQLite::Database> open(const fs::path& path, const StudyPlan& pl
   return resume(path, plan);
 }
 
-constexpr const char* kCountColumns =
-    "match_id, calibration_id, opportunities, kicks, on_target, blocked, bounced, goals, true_on_target";
-
-/// The counts as a row value of the table `name`.
-std::string qualified(const std::string& name) {
-  return fmt::format(
-      "{0}.calibration_id, {0}.opportunities, {0}.kicks, {0}.on_target, {0}.blocked, {0}.bounced, {0}.goals, "
-      "{0}.true_on_target",
-      name);
+/// The columns of table tallies but arm_id.
+std::string tally_columns() {
+  std::string columns = "match_id, calibration_id";
+  for (const TallyField& count : kTallyFields) columns += fmt::format(", {}", count.name);
+  return columns;
 }
 
 }  // namespace
 
-struct StudyResults::Impl {
-  Impl(const fs::path& file, const StudyPlan& asked)
-      : path(file),
-        plan(asked),
-        database(open(file, asked)),
-        insert(*database, fmt::format("INSERT INTO main.tallies (arm_id, {}) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                                      kCountColumns)) {}
-
-  void begin() {
-    if (transaction) return;
-    begun = std::chrono::steady_clock::now();
-    transaction.emplace(*database, SQLite::TransactionBehavior::IMMEDIATE);
-    database->exec("UPDATE main.studies SET finished = 0 WHERE finished = 1");
-  }
-
-  void written(const std::function<void()>& work) const {
-    try {
-      work();
-    } catch (const SQLite::Exception& error) {
-      throw std::runtime_error(fmt::format("{}: results could not be written: {}", path.string(), error.what()));
-    }
-  }
-
-  fs::path path;
-  StudyPlan plan;
-  std::unique_ptr<SQLite::Database> database;
-  SQLite::Statement insert;
-  std::optional<SQLite::Transaction> transaction;
-  std::chrono::steady_clock::time_point begun;
-};
-
-StudyResults::StudyResults(const fs::path& path, const StudyPlan& plan) : impl_(std::make_unique<Impl>(path, plan)) {}
+StudyResults::StudyResults(const fs::path& path, const StudyPlan& plan)
+    : path_(path), plan_(plan), database_(open(path, plan)) {}
 StudyResults::~StudyResults() = default;
+
+void StudyResults::begin() {
+  if (begun_) return;
+  database_->exec("BEGIN IMMEDIATE; UPDATE main.studies SET finished = 0 WHERE finished = 1");
+  begun_ = std::chrono::steady_clock::now();
+}
+
+void StudyResults::written(const std::function<void()>& work) const {
+  try {
+    work();
+  } catch (const SQLite::Exception& error) {
+    throw std::runtime_error(fmt::format("{}: results could not be written: {}", path_.string(), error.what()));
+  }
+}
 
 void StudyResults::take_over(const fs::path& path) {
   std::error_code none;
-  if (fs::equivalent(path, impl_->path, none)) return;
+  if (fs::equivalent(path, path_, none)) return;
   LogFile(path, kStudyResults, Check::kWhole).query("SELECT arguments FROM studies", [&](const std::string& arguments) {
-    const auto stamp = stamp_of(arguments);
-    if ((stamp ? stamp->arguments : arguments) != impl_->plan.arguments ||
-        (stamp && stamp->matches != impl_->plan.matches))
+    if (arguments != plan_.arguments)
       throw std::runtime_error(fmt::format("{}: has results of another study", path.string()));
   });
   commit();
-  impl_->written([&] {
-    SQLite::Database& database = *impl_->database;
-    SQLite::Statement attach(database, "ATTACH ? AS other");
+  written([&] {
+    SQLite::Statement attach(*database_, "ATTACH ? AS other");
     attach.bind(1, name_of_main_file(path));
     attach.exec();
-    SQLite::Statement differs(database, fmt::format("SELECT m.match_id FROM main.tallies AS m JOIN other.tallies AS o "
-                                                    "USING (arm_id, match_id) WHERE ({0}) IS NOT ({1}) LIMIT 1",
-                                                    qualified("m"), qualified("o")));
-    if (differs.executeStep())
-      throw std::runtime_error(fmt::format("{}: says something else of match {} than the other results", path.string(),
-                                           differs.getColumn(0).getInt64()));
-    SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-    database.exec(
-        "INSERT OR IGNORE INTO main.arms SELECT arm_id, sha256, (SELECT count(*) FROM main.arms) + place, name FROM "
-        "other.arms");
-    database.exec("INSERT OR IGNORE INTO main.tallies SELECT * FROM other.tallies");
-    transaction.commit();
-    differs.reset();
+    {
+      SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
+      database_->exec(
+          "INSERT OR IGNORE INTO main.arms SELECT arm_id, sha256, (SELECT count(*) FROM main.arms) + place, name FROM "
+          "other.arms; INSERT OR IGNORE INTO main.tallies SELECT * FROM other.tallies");
+      SQLite::Statement differs(*database_,
+                                "SELECT match_id FROM (SELECT * FROM other.tallies EXCEPT SELECT * FROM main.tallies)");
+      if (differs.executeStep())
+        throw std::runtime_error(fmt::format("{}: says something else of match {} than the other results",
+                                             path.string(), differs.getColumn(0).getInt64()));
+      transaction.commit();
+    }
     attach.reset();
-    database.exec("DETACH other");
+    database_->exec("DETACH other");
   });
 }
 
 std::int64_t StudyResults::arm(const std::string& text, const std::string& name) {
   const std::string digest = sha256(text);
   const auto arm_id = static_cast<std::int64_t>(std::stoull(digest.substr(0, 16), nullptr, 16) >> 1);
-  impl_->written([&] {
-    SQLite::Statement known(*impl_->database, "SELECT 1 FROM main.arms WHERE arm_id = ?");
+  written([&] {
+    SQLite::Statement known(*database_, "SELECT 1 FROM main.arms WHERE arm_id = ?");
     known.bind(1, arm_id);
     if (known.executeStep()) return;
-    impl_->begin();
-    SQLite::Statement insert(*impl_->database, "INSERT INTO main.arms SELECT ?, ?, count(*), ? FROM main.arms");
+    begin();
+    SQLite::Statement insert(*database_, "INSERT INTO main.arms SELECT ?, ?, count(*), ? FROM main.arms");
     insert.bind(1, arm_id);
     insert.bind(2, digest);
     insert.bind(3, name);
@@ -169,56 +137,45 @@ std::int64_t StudyResults::arm(const std::string& text, const std::string& name)
 
 std::map<std::uint32_t, MatchTally> StudyResults::matches_of(std::int64_t arm_id) const {
   std::map<std::uint32_t, MatchTally> matches;
-  SQLite::Statement select(*impl_->database,
-                           fmt::format("SELECT {} FROM main.tallies WHERE arm_id = ?", kCountColumns));
+  SQLite::Statement select(*database_, fmt::format("SELECT {} FROM main.tallies WHERE arm_id = ?", tally_columns()));
   select.bind(1, arm_id);
   while (select.executeStep()) {
-    const auto cell = [&](const char* column) { return select.getColumn(column).getInt64(); };
-    matches[static_cast<std::uint32_t>(cell("match_id"))] = {
-        .opportunities = cell("opportunities"),
-        .kicks = cell("kicks"),
-        .on_target = cell("on_target"),
-        .blocked = cell("blocked"),
-        .bounced = cell("bounced"),
-        .goals = cell("goals"),
-        .calibration = static_cast<std::uint32_t>(cell("calibration_id")),
-        .true_on_target = cell("true_on_target")};
+    MatchTally& tally = matches[select.getColumn(0).getUInt()];
+    tally.calibration = select.getColumn(1).getUInt();
+    int place = 1;
+    for (const TallyField& count : kTallyFields) tally.*count.field = select.getColumn(++place).getInt64();
   }
   return matches;
 }
 
 void StudyResults::add(std::int64_t arm_id, std::uint32_t match_id, const MatchTally& tally) {
-  impl_->written([&] {
-    impl_->begin();
-    int place = 0;
-    const auto bind = [&](auto... values) { (impl_->insert.bind(++place, values), ...); };
-    impl_->insert.reset();
-    bind(arm_id, std::int64_t{match_id}, std::int64_t{tally.calibration}, tally.opportunities, tally.kicks,
-         tally.on_target, tally.blocked, tally.bounced, tally.goals, tally.true_on_target);
-    impl_->insert.exec();
-    impl_->insert.reset();
+  written([&] {
+    begin();
+    std::string values = fmt::format("{}, {}, {}", arm_id, match_id, tally.calibration);
+    for (const TallyField& count : kTallyFields) values += fmt::format(", {}", tally.*count.field);
+    database_->exec(fmt::format("INSERT INTO main.tallies (arm_id, {}) VALUES ({})", tally_columns(), values));
   });
-  if (std::chrono::steady_clock::now() - impl_->begun >= kResultsGroup) commit();
+  if (std::chrono::steady_clock::now() - *begun_ >= kResultsGroup) commit();
 }
 
 std::int64_t StudyResults::size() const {
-  return impl_->database->execAndGet("SELECT count(*) FROM main.tallies").getInt64();
+  return database_->execAndGet("SELECT count(*) FROM main.tallies").getInt64();
 }
 
 void StudyResults::commit() {
-  if (!impl_->transaction) return;
-  impl_->written([&] { impl_->transaction->commit(); });
-  impl_->transaction.reset();
+  if (!begun_) return;
+  written([&] { database_->exec("COMMIT"); });
+  begun_.reset();
 }
 
 void StudyResults::finish() {
   commit();
-  impl_->written([&] { impl_->database->exec("UPDATE main.studies SET finished = 1 WHERE finished = 0"); });
+  written([&] { database_->exec("UPDATE main.studies SET finished = 1 WHERE finished = 0"); });
 }
 
 void StudyResults::save(const fs::path& path) {
   commit();
-  SQLite::Statement vacuum(*impl_->database, "VACUUM main INTO ?");
+  SQLite::Statement vacuum(*database_, "VACUUM main INTO ?");
   vacuum.bind(1, path.string());
   vacuum.exec();
 }

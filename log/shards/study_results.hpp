@@ -1,14 +1,17 @@
 #pragma once
 
+#include <SQLiteCpp/Database.h>
+
+#include <array>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "log/shards/shard.hpp"
 
 namespace trivela::log {
 
@@ -26,6 +29,19 @@ struct MatchTally {
   bool operator==(const MatchTally&) const = default;
 };
 
+/// A count of a match by its name, which is its column's in a results file.
+struct TallyField {
+  const char* name;
+  std::int64_t MatchTally::*field;
+};
+inline constexpr std::array kTallyFields{TallyField{"opportunities", &MatchTally::opportunities},
+                                         TallyField{"kicks", &MatchTally::kicks},
+                                         TallyField{"on_target", &MatchTally::on_target},
+                                         TallyField{"blocked", &MatchTally::blocked},
+                                         TallyField{"bounced", &MatchTally::bounced},
+                                         TallyField{"goals", &MatchTally::goals},
+                                         TallyField{"true_on_target", &MatchTally::true_on_target}};
+
 /// An arm's matches, in the order of their numbers.
 using ArmTally = std::vector<MatchTally>;
 
@@ -33,13 +49,11 @@ using ArmTally = std::vector<MatchTally>;
 struct StudyPlan {
   std::string arguments;      ///< everything that its rows depend on, as text
   std::uint32_t matches = 0;  ///< of each arm, of the whole study
-  std::optional<Shard> shard{};
-
-  MatchRange range() const { return range_of(shard, matches); }
 };
 
-/// What a study has played so far, match by match: no match is played twice, however often the run is stopped. The same
-/// arms and matches make the same rows, in any order. For one thread and one process at a time: the file is locked.
+/// What a study, or a shard of it, has played so far, match by match: no match is played twice, however often the run
+/// is stopped. The same arms and matches make the same rows, in any order. For one thread and one process at a time:
+/// the file is locked.
 class StudyResults {
  public:
   /// Makes the file, or goes on with it; without a path the results are in memory until save(). Throws FileTaken naming
@@ -49,8 +63,8 @@ class StudyResults {
   StudyResults(const StudyResults&) = delete;
   StudyResults& operator=(const StudyResults&) = delete;
 
-  /// Takes over what another file of this study, or of one of its shards, has. Throws std::runtime_error naming the
-  /// file where it is of another study, cannot be read, or says something else of a match.
+  /// Takes over what another file of this study has. Throws std::runtime_error naming the file where it is of another
+  /// study, cannot be read, or says something else of a match.
   void take_over(const std::filesystem::path& path);
 
   /// The number of an arm, by `text`, all that its matches depend on but their number; `name` is for people.
@@ -67,15 +81,20 @@ class StudyResults {
 
   void commit();
 
-  /// What was asked for is there.
+  /// All matches are there.
   void finish();
 
   /// Writes results in memory to a new file.
   void save(const std::filesystem::path& path);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void begin();
+  void written(const std::function<void()>& work) const;
+
+  std::filesystem::path path_;
+  StudyPlan plan_;
+  std::unique_ptr<SQLite::Database> database_;
+  std::optional<std::chrono::steady_clock::time_point> begun_{};  // of the matches in one transaction
 };
 
 }  // namespace trivela::log

@@ -3,14 +3,13 @@
 #include <cmath>
 
 #include "config/scenario/scenario.hpp"
-#include "experiment/study/arms_report.hpp"
-#include "experiment/study/factorial_report.hpp"
+#include "experiment/study/comparisons.hpp"
+#include "experiment/study/factorial.hpp"
 #include "play_arms.hpp"
 
 namespace trivela::experiment {
 namespace {
 
-using kicking::PolicyName;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -21,50 +20,69 @@ ArmTally matches_of(std::int64_t on_target, std::int64_t kicks = 20) {
   return matches;
 }
 
+Study study_of(const std::vector<double>& medians_m = {}, const std::vector<double>& biases_m = {}) {
+  return factorial_study({}, {}, "released", medians_m, biases_m);
+}
+
 /// Efficiency 0.4, +0.1 for the new table, +0.2 for moving, +0.05 for both together; predictive 0.1 above moving.
-std::vector<PlayedCell> played() {
-  std::vector<PlayedCell> cells;
-  for (const Cell& cell : factorial_cells()) {
-    const bool again = cell.table == "new", moves = cell.policy != PolicyName::kStopped;
-    const int on_target = 8 + (again ? 2 : 0) + (moves ? 4 : 0) + (again && moves ? 1 : 0) +
-                          (cell.policy == PolicyName::kPredictive ? 2 : 0);
-    cells.push_back({cell, matches_of(on_target)});
+std::vector<StudyRow> played() {
+  std::vector<StudyRow> rows;
+  const Study study = study_of();
+  for (const RowLabels& labels : study.worlds.front().labels) {
+    StudyRow& row = rows.emplace_back(StudyRow{labels, {}});
+    const bool again = row.label("table") == "new", moves = row.label("policy") != "stopped";
+    row.matches = matches_of(8 + (again ? 2 : 0) + (moves ? 4 : 0) + (again && moves ? 1 : 0) +
+                             (row.label("policy") == "predictive" ? 2 : 0));
   }
-  return cells;
+  return rows;
+}
+
+/// With both sides of each point of a sweep.
+std::vector<StudyRow> played(const Study& study, const std::vector<std::pair<ArmTally, ArmTally>>& points) {
+  std::vector<StudyRow> rows = played();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& labels = study.worlds[i + 1].labels;
+    rows.push_back({labels[0], points[i].first});
+    rows.push_back({labels[1], points[i].second});
+  }
+  return rows;
+}
+
+Effect effect(const std::vector<StudyRow>& rows, const std::string& key, Measure measure = Measure::kEfficiency) {
+  for (const NamedEffect& named : effects_of(rows, measure))
+    if (named.key == key) return named.efficiency;
+  return {std::nan(""), {}};
 }
 
 TEST(Factorial, HasEveryCellOnce) {
-  const auto cells = factorial_cells();
-  ASSERT_EQ(cells.size(), 14u);
-  EXPECT_EQ(cells.front().name(), "old stopped paper");
-  EXPECT_EQ(cells.back().name(), "new predictive");
-  const Arm arm = arm_of({"old", PolicyName::kMoving, Law::kReleased}, {}, {});
-  EXPECT_EQ(arm.table, "old");
-  EXPECT_EQ(arm.settings.policy.height_law, kicking::HeightLaw::kExtendedRange);
-  EXPECT_EQ(arm.settings.policy.motion_law, kicking::MotionLaw::kPaper);
+  const Study study = study_of({1.0}, {0.1});
+  const auto& arms = study.worlds.front().arms;
+  ASSERT_EQ(arms.size(), 14u);
+  EXPECT_EQ(arms.front().name, "old stopped paper");
+  EXPECT_EQ(arms.back().name, "new predictive");
+  EXPECT_EQ(arms[4].name, "old moving released");
+  EXPECT_EQ(arms[4].table, "old");
+  EXPECT_EQ(arms[4].settings.policy.height_law, kicking::HeightLaw::kExtendedRange);
+  EXPECT_EQ(arms[4].settings.policy.motion_law, kicking::MotionLaw::kPaper);
+  ASSERT_EQ(study.worlds.size(), 3u);
+  EXPECT_EQ(study.worlds[1].scenario.opponent.distance_median_m, 1.0);
+  EXPECT_EQ(study.worlds[2].scenario.hand_table.target_height_m, sim::Scenario{}.hand_table.target_height_m + 0.1);
+  EXPECT_EQ(study.worlds[2].arms.back().name, "new moving released");
 }
 
 TEST(Factorial, EffectsAreThoseThatMadeTheCounts) {
-  const auto effects = effects_of(played());
-  const auto value = [&](const char* key) {
-    for (const NamedEffect& effect : effects) {
-      if (effect.key == key) return effect.efficiency.value;
-    }
-    return std::nan("");
-  };
-  EXPECT_NEAR(value("calibration"), 0.125, 1e-12);
-  EXPECT_NEAR(value("motion"), 0.225, 1e-12);
-  EXPECT_NEAR(value("calibration_x_motion"), 0.05, 1e-12);
-  EXPECT_NEAR(value("exact_law"), 0.0, 1e-12);
-  EXPECT_NEAR(value("prediction"), 0.1, 1e-12);
+  EXPECT_NEAR(effect(played(), "calibration").value, 0.125, 1e-12);
+  EXPECT_NEAR(effect(played(), "motion").value, 0.225, 1e-12);
+  EXPECT_NEAR(effect(played(), "calibration_x_motion").value, 0.05, 1e-12);
+  EXPECT_NEAR(effect(played(), "exact_law").value, 0.0, 1e-12);
+  EXPECT_NEAR(effect(played(), "prediction").value, 0.1, 1e-12);
 }
 
 TEST(Factorial, CalibrationAndMotionAddUpToTheGain) {
-  for (const Measure measure : {Measure::kEfficiency, Measure::kPerOpportunity}) {
-    const Gain gain = gain_of(played(), measure);
-    EXPECT_NEAR(gain.gain.value, gain.calibration.value + gain.motion.value, 1e-12);
-  }
-  EXPECT_NEAR(gain_of(played(), Measure::kEfficiency).gain.value, 0.35, 1e-12);
+  for (const Measure measure : {Measure::kEfficiency, Measure::kPerOpportunity})
+    EXPECT_NEAR(effect(played(), "gain", measure).value,
+                effect(played(), "calibration", measure).value + effect(played(), "motion", measure).value, 1e-12);
+  EXPECT_NEAR(effect(played(), "gain").value, 0.35, 1e-12);
 }
 
 TEST(Factorial, WhatMatchesHaveInCommonCancels) {
@@ -100,91 +118,77 @@ TEST(Factorial, CalibrationsThatDifferWidenTheInterval) {
 }
 
 TEST(Factorial, SweepSaysWhereThePapersRatioIsMet) {
-  std::vector<SweepPoint> sweep;
-  for (const auto& [median_m, kicks] : {std::pair{1.0, 30}, {2.0, 22}, {3.0, 16}}) {
-    sweep.push_back({median_m, matches_of(5, 10), matches_of(kicks * 3 / 4, kicks)});
-  }
-  const SweepAnswer answer = answer_of(sweep);
-  ASSERT_TRUE(answer.ratio_at_m);
+  const Study study = study_of({1.0, 2.0, 3.0});
+  std::vector<std::pair<ArmTally, ArmTally>> points;
+  for (const int kicks : {30, 22, 16}) points.emplace_back(matches_of(5, 10), matches_of(kicks * 3 / 4, kicks));
+  const RatioMet met = ratio_met(played(study, points));
+  ASSERT_TRUE(met.at_m);
   // By hand: 2.2 at 2 m, 1.6 at 3 m.
-  EXPECT_NEAR(*answer.ratio_at_m, 2.0 + (2.2 - kPaperKickRatio) / 0.6, 1e-9);
-  EXPECT_EQ(answer.pair_within.size(), 3u);  // 50 and 75 % everywhere
-  sweep.resize(2);
-  EXPECT_FALSE(answer_of(sweep).ratio_at_m);
+  EXPECT_NEAR(*met.at_m, 2.0 + (2.2 - kPaperKickRatio) / 0.6, 1e-9);
+  points.resize(2);
+  EXPECT_FALSE(ratio_met(played(study, points)).at_m);
 }
 
 TEST(Factorial, ReportSaysWhatItClaimsAndWhatNot) {
-  FactorialReport report{.robots = {"calibrated_1"}, .cells = played()};
-  EXPECT_THAT(to_text(report), HasSubstr("It says nothing about why the paper's tournaments differed"));
-  EXPECT_EQ(to_json(report)["rows"].size(), 14u);
-  EXPECT_THAT(csv_of(rows_of(report), report.played), HasSubstr("cell,new,predictive,,"));
-  EXPECT_THAT(to_text(report), testing::StartsWith("SIMULATED: "));
-  EXPECT_EQ(to_json(report)["simulated"], true);
-  EXPECT_THAT(csv_of(rows_of(report), report.played), HasSubstr(",simulated\n"));
-  EXPECT_THAT(csv_of(rows_of(report), report.played), testing::EndsWith(",1\n"));
-  EXPECT_THAT(to_svg(report), testing::AllOf(HasSubstr("simulated: "), HasSubstr(">old<"), HasSubstr(">new<")));
-  EXPECT_THAT(to_svg(report), testing::Not(HasSubstr(">-0.2<")));
-  EXPECT_THAT(to_svg(report), HasSubstr("<svg"));
+  const StudyReport report = report_of(study_of(), played(), {});
+  EXPECT_THAT(report.text, HasSubstr("It says nothing about why the paper's tournaments differed"));
+  EXPECT_EQ(report.json["rows"].size(), 14u);
+  EXPECT_THAT(report.text, testing::StartsWith("SIMULATED: "));
+  EXPECT_EQ(report.json["simulated"], true);
+  EXPECT_THAT(report.csv,
+              testing::AllOf(HasSubstr("cell,new,predictive,,"), HasSubstr(",simulated\n"), testing::EndsWith(",1\n")));
+  EXPECT_THAT(report.svg, testing::AllOf(HasSubstr("<svg"), HasSubstr("simulated: "), HasSubstr(">old<"),
+                                         HasSubstr(">new<"), HasSubstr(">moving released<")));
 }
 
 TEST(Factorial, BlockedKicksStandApartWhereAsked) {
-  std::vector<PlayedCell> cells = played();
-  for (PlayedCell& played : cells) {
-    for (MatchTally& match : played.matches) match.blocked = played.cell.policy == PolicyName::kMoving ? 5 : 0;
-  }
-  const auto motion = [&](Measure measure) { return effects_of(cells, measure)[1].efficiency.value; };
-  EXPECT_NEAR(motion(Measure::kEfficiency), 0.225, 1e-12);
+  std::vector<StudyRow> rows = played();
+  for (StudyRow& row : rows)
+    for (MatchTally& match : row.matches) match.blocked = row.label("policy") == "moving" ? 5 : 0;
+  EXPECT_NEAR(effect(rows, "motion").value, 0.225, 1e-12);
   // Of 15, not 20 kicks: by hand (12 + 15) / 2 / 15 - (8 + 10) / 2 / 20.
-  EXPECT_NEAR(motion(Measure::kUnblocked), 0.9 - 0.45, 1e-12);
-  FactorialReport report{.robots = {"calibrated_1"}, .cells = cells};
-  EXPECT_THAT(to_text(report), HasSubstr("blocked ones included"));
-  report.played.efficiency = Measure::kUnblocked;
-  EXPECT_THAT(to_text(report), HasSubstr("of the kicks that nobody blocked"));
-  EXPECT_EQ(to_json(report)["blocked"], "apart");
+  EXPECT_NEAR(effect(rows, "motion", Measure::kUnblocked).value, 0.9 - 0.45, 1e-12);
+  EXPECT_EQ(report_of(study_of(), rows, {.efficiency = Measure::kUnblocked}).json["blocked"], "apart");
 }
 
 TEST(Factorial, SaysWhichAssumptionsReachThePapersPair) {
-  ArmTally older = matches_of(10), newer = matches_of(13);
+  const ArmTally older = matches_of(10);
+  ArmTally newer = matches_of(13);
   for (MatchTally& match : newer) match.blocked = 3;
-  FactorialReport report{.cells = played(), .biases = {{0.1, older, newer}}};
-  const std::string text = to_text(report);
-  EXPECT_THAT(text, HasSubstr("outside  50.0"));
-  EXPECT_THAT(text, HasSubstr("65.0"));
-  EXPECT_THAT(text, HasSubstr("76.5"));
-  const auto json = to_json(report)["pair"];
+  const Study study = study_of({}, {0.1});
+  const StudyReport report = report_of(study, played(study, {{older, newer}}), {});
+  EXPECT_THAT(report.text, testing::AllOf(HasSubstr("0.1  outside"), HasSubstr("65.0"), HasSubstr("76.5")));
+  const auto& json = report.json["pair"];
   ASSERT_EQ(json.size(), 2u);
   EXPECT_FALSE(json[0]["both_within_papers"]) << "65 % is below 68";
   EXPECT_TRUE(json[1]["both_within_papers"]);
 }
 
 TEST(Factorial, CountsWhatBouncedInAndWhatPassedTheKeeper) {
-  std::vector<PlayedCell> cells = played();
-  for (PlayedCell& played : cells) {
-    for (MatchTally& match : played.matches) {
+  std::vector<StudyRow> rows = played();
+  for (StudyRow& row : rows) {
+    for (MatchTally& match : row.matches) {
       match.bounced = match.on_target / 2;
       match.goals = 4;
     }
   }
-  FactorialReport report{.robots = {"calibrated_1"}, .cells = cells};
-  EXPECT_THAT(to_text(report), Not(HasSubstr("goals/opp.")));
-  report.played.keeper = true;
-  EXPECT_THAT(to_text(report), HasSubstr("goals/opp. [%]"));
-  EXPECT_THAT(to_text(report), HasSubstr("10.0 (10.0 to 10.0)"));
-  EXPECT_NEAR(share_of(cells[0].matches, Measure::kBounced).value, 0.4375, 0.07);
-  EXPECT_EQ(to_json(report)["rows"][0]["goals"], 80);
+  EXPECT_THAT(report_of(study_of(), rows, {}).text, Not(HasSubstr("goals/opp.")));
+  const StudyReport report = report_of(study_of(), rows, {.keeper = true});
+  EXPECT_THAT(report.text, testing::AllOf(HasSubstr("goals/opp. [%]"), HasSubstr("10.0 (10.0 to 10.0)")));
+  EXPECT_NEAR(share_of(rows[0].matches, Measure::kBounced).value, 0.4375, 0.07);
+  EXPECT_EQ(report.json["rows"][0]["goals"], 80);
 }
 
 TEST(StudyOfArms, ComparesEachArmWithTheFirst) {
-  ArmsReport report{.played = {.scenario = "default.toml", .matches = 20, .possessions = 40},
-                    .arms = {{"stopped", matches_of(8)}, {"moving, twice", matches_of(10)}}};
-  const std::string text = to_text(report), csv = csv_of(rows_of(report), report.played);
-  EXPECT_THAT(text, HasSubstr("minus stopped"));
-  EXPECT_THAT(text, HasSubstr("+10.0 (+10.0 to +10.0)"));
-  EXPECT_THAT(csv, HasSubstr("\n\"moving, twice\",800,400,200,0,0,0,"));
-  EXPECT_NEAR(to_json(report)["rows"][1]["minus_first"]["efficiency"]["value"].get<double>(), 0.1, 1e-12);
-  for (MatchTally& match : report.arms[1].matches) match.true_on_target = match.on_target;
-  EXPECT_THAT(to_text(report), Not(HasSubstr("moving, twice: the observer")));
-  EXPECT_THAT(to_text(report), HasSubstr("stopped: many labels are wrong or unknown"));
+  std::vector<StudyRow> rows{{{{"arm", "stopped"}}, matches_of(8)}, {{{"arm", "moving, twice"}}, matches_of(10)}};
+  const Study study = arms_study({}, {{.name = "stopped"}, {.name = "moving, twice"}});
+  const StudyReport report = report_of(study, rows, {.scenario = "default.toml", .matches = 20, .possessions = 40});
+  EXPECT_THAT(report.text, testing::AllOf(HasSubstr("minus stopped"), HasSubstr("+10.0 (+10.0 to +10.0)")));
+  EXPECT_THAT(report.csv, HasSubstr("\n\"moving, twice\",800,400,200,0,0,0,"));
+  EXPECT_NEAR(report.json["rows"][1]["minus_first"]["efficiency"]["value"].get<double>(), 0.1, 1e-12);
+  for (MatchTally& match : rows[1].matches) match.true_on_target = match.on_target;
+  EXPECT_THAT(report_of(study, rows, {}).text, testing::AllOf(Not(HasSubstr("moving, twice: many labels")),
+                                                              HasSubstr("stopped: many labels are wrong or unknown")));
 }
 
 TEST(Factorial, AShareStaysWithinItsBounds) {
@@ -214,35 +218,25 @@ TEST(Factorial, OneMatchWithKicksGivesNoInterval) {
   EXPECT_TRUE(std::isnan(kick_ratio(none, one).value));
 }
 
-TEST(Factorial, WithoutKicksItSaysSoAndPrintsNoNan) {
+TEST(Factorial, WithoutKicksItPrintsNoNan) {
   const ArmTally none(2, MatchTally{1, 0, 0});
-  FactorialReport report{.robots = {"calibrated_1"}};
-  for (const Cell& cell : factorial_cells()) report.cells.push_back({cell, none});
-  report.sweep = {{2.0, none, none}};
-  const std::string text = to_text(report), csv = csv_of(rows_of(report), report.played), svg = to_svg(report),
-                    json = to_json(report).dump();
-  for (const std::string* output : {&text, &csv, &svg, &json}) {
-    EXPECT_EQ(output->find("nan"), std::string::npos) << *output;
-    EXPECT_EQ(output->find("inf"), std::string::npos) << *output;
+  const Study study = study_of({2.0});
+  std::vector<StudyRow> rows = played(study, {{none, none}});
+  for (StudyRow& row : rows) row.matches = none;
+  const StudyReport report = report_of(study, rows, {});
+  for (const std::string& output : {report.text, report.csv, report.svg, report.json.dump()}) {
+    EXPECT_EQ(output.find("nan"), std::string::npos) << output;
+    EXPECT_EQ(output.find("inf"), std::string::npos) << output;
   }
-  EXPECT_THAT(text, HasSubstr("efficiency cannot be told, there are too few kicks"));
-  EXPECT_THAT(text, HasSubstr("shots on target per opportunity cannot be told, there are too few kicks"));
-  EXPECT_THAT(text, HasSubstr("too few kicks for a kick ratio"));
-  EXPECT_THAT(text, HasSubstr("too few kicks to say where its pair of efficiencies is nearest"));
-  EXPECT_THAT(csv, HasSubstr("cell,old,stopped,paper,0,,2,0,0,0,0,0,,,,0.000000,0.000000,"));
-  EXPECT_TRUE(to_json(report)["rows"][0]["efficiency"].is_null());
-  EXPECT_TRUE(to_json(report)["sweep"]["nearest_m"].is_null());
-}
-
-TEST(Factorial, ASweepOfOnePointIsAtThatPoint) {
-  FactorialReport report{.robots = {"calibrated_1"}, .cells = played()};
-  report.sweep = {{2.0, matches_of(5, 10), matches_of(6, 10)}};
-  EXPECT_THAT(to_text(report), HasSubstr("ratio of 2.03 is not met at 2 m."));
+  EXPECT_THAT(report.text, HasSubstr("kick ratio is met at: beyond the sweep"));
+  EXPECT_THAT(report.csv, HasSubstr("cell,old,stopped,paper,1.5,,2,0,0,0,0,0,,,,0.000000,0.000000,"));
+  EXPECT_TRUE(report.json["rows"][0]["efficiency"].is_null());
+  EXPECT_TRUE(report.json["sweep"]["ratio_at_m"].is_null());
 }
 
 TEST(Factorial, PlayIsTheSameForAnyNumberOfJobs) {
-  const std::vector<Arm> arms{arm_of({"old", PolicyName::kStopped, Law::kExact}, {}, {config::Robot{}}),
-                              arm_of({"new", PolicyName::kMoving, Law::kExact}, {}, {config::Robot{}})};
+  const auto cells = study_of().worlds.front().arms;
+  const std::vector<Arm> arms{cells[2], cells[12]};  // old stopped exact, new moving exact
   const auto play = [&](unsigned jobs) {
     return play_arms({}, arms, {.seed = 3, .matches = 3, .possessions = 4, .jobs = jobs});
   };
@@ -262,9 +256,8 @@ TEST(Factorial, TheShippedWorldsArePlayed) {
   config::override_settings(settings, {"policy.objective = 'on_target'"});
   const std::vector<config::Robot> robots{config::load_robot(config + "robots/calibrated_1.toml")};
   const PlayPlan plan{.seed = 3, .matches = 4, .possessions = 15};
-  std::vector<Arm> arms;
-  for (const PolicyName policy : {PolicyName::kStopped, PolicyName::kMoving})
-    arms.push_back(arm_of({"new", policy, Law::kPaper}, settings, robots));
+  const auto cells = factorial_study({}, {.settings = settings, .robots = robots}, "paper", {}, {}).worlds[0].arms;
+  const std::vector<Arm> arms{cells[7], cells[10]};  // new stopped paper, new moving paper
   const auto played = [&](const std::string& world, const std::string& change = "") {
     sim::Scenario scenario = config::load_scenario(config + "scenarios/" + world + ".toml");
     if (!change.empty()) config::override_scenario(scenario, change);

@@ -120,9 +120,9 @@ TEST(TunedSpace, ReadsSettingsOfTheCommandLine) {
 }
 
 TuneReport found() {
-  TuneReport report{.policy = "stopped", .command = "trivela tune stopped", .scenario = "default.toml"};
-  report.tuning = {1001, 40, 100, 5};
-  report.held_out = {1002, 40, 100, 5};
+  TuneReport report{.policy = "stopped", .command = "trivela tune stopped"};
+  report.tuning = {"default.toml", 1001, 40, 100, 5};
+  report.held_out = {"default.toml", 1002, 40, 100, 5};
   report.space = {numbers("policy.settle_s", {0.1, 0.2})};
   report.state.settings.policy.dribble_mps = 0.7;  // of --set
   coordinate_search(report.space, 3, play, report.state);

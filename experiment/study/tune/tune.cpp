@@ -8,17 +8,13 @@
 #include <sstream>
 
 #include "evaluator/render/text_table.hpp"
-#include "experiment/study/report.hpp"
 
 namespace trivela::experiment {
 namespace {
 
 Effect gain_of(const ArmTally& tried, const ArmTally& present) {
-  const Term terms[] = {{&tried, 1.0}, {&present, -1.0}};
-  return contrast(terms, Measure::kPerOpportunity);
+  return difference(tried, present, Measure::kPerOpportunity);
 }
-
-bool is_told_apart(const Effect& gain) { return (has_interval(gain) ? gain.ci.lo : gain.value) > 0.0; }
 
 /// Sets one coordinate; true: to something else than before.
 bool improve(const Coordinate& coordinate, int round, const PlaySettings& play, TuneState& state) {
@@ -38,7 +34,7 @@ bool improve(const Coordinate& coordinate, int round, const PlaySettings& play, 
   const auto best = std::ranges::max_element(played, {}, [](const ArmTally& arm) { return total_of(arm).on_target; });
   const auto i = static_cast<std::size_t>(best - played.begin());
   const Effect gain = gain_of(*best, state.best);
-  if (!is_told_apart(gain)) return false;
+  if (!((has_interval(gain) ? gain.ci.lo : gain.value) > 0.0)) return false;
   state.steps.push_back({round, present, present_choice(candidates[i], coordinate), gain});
   state.settings = std::move(candidates[i]);
   state.best = std::move(*best);
@@ -49,12 +45,7 @@ namespace fs = std::filesystem;
 
 std::string share(const ArmTally& arm) { return share_text(share_of(arm, Measure::kPerOpportunity)); }
 
-std::string gain(const ArmTally& best, const ArmTally& start) {
-  const Term terms[] = {{&best, 1.0}, {&start, -1.0}};
-  return points_text(contrast(terms, Measure::kPerOpportunity));
-}
-
-std::string described(const TuneMatches& matches) {
+std::string described(const StudyPlayed& matches) {
   const std::string robots =
       matches.calibrations == 0 ? "the robot files" : fmt::format("{} calibrations", matches.calibrations);
   return fmt::format("{} matches of {}, {}, seed {}", matches.matches, matches.possessions, robots, matches.seed);
@@ -79,7 +70,8 @@ std::string outcome(const TuneReport& report) {
     return text + "not tried on other matches: the share above is too good, it was chosen by\n";
   text += fmt::format("held out, {}: {} %, before {} %; gain {} points where {} were seen\n",
                       described(report.held_out), share(*report.held_out_best), share(*report.held_out_start),
-                      gain(*report.held_out_best, *report.held_out_start), gain(state.best, state.start));
+                      points_text(gain_of(*report.held_out_best, *report.held_out_start)),
+                      points_text(gain_of(state.best, state.start)));
   return text;
 }
 
@@ -116,7 +108,7 @@ void coordinate_search(const std::vector<Coordinate>& space, int rounds, const P
 std::string to_text(const TuneReport& report) {
   std::string text = fmt::format(
       "SIMULATED: settings of {} for the world {}; observed shots on target per opportunity, 95 % intervals.\n\n",
-      report.policy, report.scenario);
+      report.policy, report.tuning.scenario);
   std::vector<std::vector<std::string>> rows{{"round", "from", "to", "gain [points]"}};
   for (const TuneStep& step : report.state.steps)
     rows.push_back(
@@ -129,7 +121,7 @@ std::string to_settings_file(const TuneReport& report, const fs::path& out) {
   std::string text = fmt::format(
       "# Settings of {} for the world {}, simulated, found by\n#   {}\n# Objective: observed shots on target per "
       "opportunity [%], 95 % intervals by match{}.\n",
-      report.policy, report.scenario, report.command, report.tuning.calibrations > 0 ? " and calibration" : "");
+      report.policy, report.tuning.scenario, report.command, report.tuning.calibrations > 0 ? " and calibration" : "");
   std::istringstream lines{outcome(report)};
   for (std::string line; std::getline(lines, line);) text += "# " + line + '\n';
   const fs::path folder = fs::absolute(out).parent_path();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/study/effects.hpp"
+#include "experiment/study/report.hpp"
 #include "experiment/study/tune/tune_space.hpp"
 
 namespace trivela::experiment {
@@ -38,21 +38,12 @@ using PlaySettings = std::function<std::vector<ArmTally>(const std::vector<confi
 /// `play`, so that whoever throws there keeps the best so far.
 void coordinate_search(const std::vector<Coordinate>& space, int rounds, const PlaySettings& play, TuneState& state);
 
-/// Matches of a search, or those that it is tried on afterwards.
-struct TuneMatches {
-  std::uint64_t seed = 0;
-  std::uint32_t matches = 0;
-  std::uint32_t possessions = 0;  ///< opportunities a match
-  std::size_t calibrations = 0;   ///< of calibration, by the same seed; 0: the robot files
-};
-
 /// What a search found, and on which matches.
 struct TuneReport {
   std::string policy;
-  std::string command;   ///< that makes the file again
-  std::string scenario;  ///< name of its file
-  TuneMatches tuning{};
-  TuneMatches held_out{};
+  std::string command;  ///< that makes the file again
+  StudyPlayed tuning{};
+  StudyPlayed held_out{};  ///< matches that it is tried on afterwards
   std::vector<Coordinate> space{};
   TuneState state{};
   std::optional<ArmTally> held_out_start{};  ///< none: interrupted before

@@ -4,8 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -17,66 +15,65 @@
 namespace trivela::experiment {
 namespace {
 
-Coordinate coordinate(std::string_view key, std::initializer_list<const char*> values) {
-  Coordinate made{std::string{key}, {}};
-  for (const char* value : values) made.choices.push_back(fmt::format("{} = {}", key, value));
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream rest{text};
+  for (std::string part; std::getline(rest, part, at);) parts.push_back(part);
+  return parts;
+}
+
+/// "KEY", "V1|V2".
+Coordinate coordinate(const std::string& key, const std::string& values) {
+  Coordinate made{key, {}};
+  for (const std::string& value : split(values, '|')) made.choices.push_back(fmt::format("{} = {}", key, value));
   return made;
 }
 
 /// The paper's law has no height, the others have nothing but one: law and height are chosen together.
 Coordinate height() {
   Coordinate made{"policy.height_law", {"policy.height_law = \"paper\"\npolicy.target_height_m = 0.7"}};
-  for (const char* law : {"extended_range", "exact"}) {
-    for (const char* height_m : {"0.2", "0.3", "0.4", "0.5", "0.6", "0.7"}) {
+  for (const char* law : {"extended_range", "exact"})
+    for (const char* height_m : {"0.2", "0.3", "0.4", "0.5", "0.6", "0.7"})
       made.choices.push_back(fmt::format("policy.height_law = \"{}\"\npolicy.target_height_m = {}", law, height_m));
-    }
-  }
   return made;
 }
 
-std::vector<Coordinate> of_stopped() {
-  // At rest stays at rest: faster than this it would be a moving policy that allows for no motion.
-  return {height(),
-          coordinate("policy.aim_tolerance_deg", {"0.5", "1.0", "2.0", "3.0", "4.0", "5.0", "6.0", "8.0"}),
-          coordinate("policy.settle_s", {"0.0", "0.02", "0.04", "0.06", "0.1", "0.15", "0.25", "0.4"}),
-          coordinate("policy.rest_speed_mps", {"0.1", "0.15", "0.2", "0.25", "0.3"}),
-          coordinate("policy.rest_turn_rate_radps", {"0.1", "0.15", "0.2", "0.3", "0.4", "0.5"}),
-          coordinate("policy.stopped_turn_gain_hz", {"3.0", "4.0", "6.0", "8.0", "12.0", "16.0"}),
-          coordinate("policy.dribble_mps", {"0.6", "0.9", "1.2", "1.6", "2.0"})};
-}
-
-std::vector<Coordinate> of_moving() {
-  return {height(),
-          coordinate("policy.motion_law", {"\"paper\"", "\"exact\""}),
-          coordinate("policy.alpha_law", {"\"paper_line\"", "\"physical\""}),
-          coordinate("policy.alignment.half_width_m",
-                     {"0.05", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1.0"}),
-          coordinate("policy.alignment.extension", {"\"max\"", "\"add\""}),
-          coordinate("policy.moving_turn_gain_hz", {"6.0", "8.0", "12.0", "16.0", "24.0", "40.0"}),
-          coordinate("policy.dribble_mps", {"0.0", "0.3", "0.6", "0.9", "1.2", "1.6", "2.0"}),
-          coordinate("policy.keep_off_m", {"1.5", "2.0", "2.5", "3.0", "4.0"})};
-}
-
-std::vector<Coordinate> of_predictive() {
-  const auto own = [](const char* key, std::initializer_list<const char*> values) {
-    return coordinate("policy.predictive." + std::string{key}, values);
-  };
-  return {own("threshold", {"0.0", "0.1", "0.2", "0.3", "0.4", "0.5"}),
-          own("bounce_ratio", {"0.6", "0.7", "0.8", "0.9", "0.95", "1.0"}),
-          own("position_sd_m", {"0.06", "0.09", "0.12", "0.16", "0.2"}),
-          own("heading_sd_deg", {"0.4", "0.8", "1.2", "1.6"}),
-          own("speed_sd_mps", {"0.0", "0.05", "0.1", "0.2"}),
-          own("turn_rate_sd_radps", {"0.0", "0.05", "0.1", "0.2"}),
-          own("twist_lag_s", {"0.0", "0.02", "0.04"}),
-          own("closing_mps", {"0.7", "1.0", "1.3", "1.6"}),
-          own("closing_sd_mps", {"0.25", "0.5", "0.8"}),
-          own("closing_walk_mps2", {"0.2", "0.5", "1.0"}),
-          own("dispute_distance_m", {"0.4", "0.45", "0.5", "0.55", "0.6", "0.7"}),
-          own("hazard_per_s", {"0.02", "0.05", "0.1", "0.2", "0.4"}),
-          own("horizon_s", {"0.6", "0.9", "1.2", "1.6"}),
-          coordinate("policy.dribble_mps", {"0.0", "0.3", "0.6", "0.9", "1.2", "1.6", "2.0"}),
-          coordinate("policy.keep_off_m", {"1.5", "2.0", "2.5", "3.0", "4.0"})};
-}
+struct Tuned {
+  kicking::PolicyName policy;
+  const char* key;
+  const char* values;
+};
+using enum kicking::PolicyName;
+constexpr Tuned kTuned[] = {
+    {kStopped, "policy.aim_tolerance_deg", "0.5|1.0|2.0|3.0|4.0|5.0|6.0|8.0"},
+    {kStopped, "policy.settle_s", "0.0|0.02|0.04|0.06|0.1|0.15|0.25|0.4"},
+    // At rest stays at rest: faster than this it would be a moving policy that allows for no motion.
+    {kStopped, "policy.rest_speed_mps", "0.1|0.15|0.2|0.25|0.3"},
+    {kStopped, "policy.rest_turn_rate_radps", "0.1|0.15|0.2|0.3|0.4|0.5"},
+    {kStopped, "policy.stopped_turn_gain_hz", "3.0|4.0|6.0|8.0|12.0|16.0"},
+    {kStopped, "policy.dribble_mps", "0.6|0.9|1.2|1.6|2.0"},
+    {kMoving, "policy.motion_law", "\"paper\"|\"exact\""},
+    {kMoving, "policy.alpha_law", "\"paper_line\"|\"physical\""},
+    {kMoving, "policy.alignment.half_width_m", "0.05|0.1|0.2|0.3|0.4|0.5|0.6|0.7|0.8|0.9|1.0"},
+    {kMoving, "policy.alignment.extension", "\"max\"|\"add\""},
+    {kMoving, "policy.moving_turn_gain_hz", "6.0|8.0|12.0|16.0|24.0|40.0"},
+    {kMoving, "policy.dribble_mps", "0.0|0.3|0.6|0.9|1.2|1.6|2.0"},
+    {kMoving, "policy.keep_off_m", "1.5|2.0|2.5|3.0|4.0"},
+    {kPredictive, "policy.predictive.threshold", "0.0|0.1|0.2|0.3|0.4|0.5"},
+    {kPredictive, "policy.predictive.bounce_ratio", "0.6|0.7|0.8|0.9|0.95|1.0"},
+    {kPredictive, "policy.predictive.position_sd_m", "0.06|0.09|0.12|0.16|0.2"},
+    {kPredictive, "policy.predictive.heading_sd_deg", "0.4|0.8|1.2|1.6"},
+    {kPredictive, "policy.predictive.speed_sd_mps", "0.0|0.05|0.1|0.2"},
+    {kPredictive, "policy.predictive.turn_rate_sd_radps", "0.0|0.05|0.1|0.2"},
+    {kPredictive, "policy.predictive.twist_lag_s", "0.0|0.02|0.04"},
+    {kPredictive, "policy.predictive.closing_mps", "0.7|1.0|1.3|1.6"},
+    {kPredictive, "policy.predictive.closing_sd_mps", "0.25|0.5|0.8"},
+    {kPredictive, "policy.predictive.closing_walk_mps2", "0.2|0.5|1.0"},
+    {kPredictive, "policy.predictive.dispute_distance_m", "0.4|0.45|0.5|0.55|0.6|0.7"},
+    {kPredictive, "policy.predictive.hazard_per_s", "0.02|0.05|0.1|0.2|0.4"},
+    {kPredictive, "policy.predictive.horizon_s", "0.6|0.9|1.2|1.6"},
+    {kPredictive, "policy.dribble_mps", "0.0|0.3|0.6|0.9|1.2|1.6|2.0"},
+    {kPredictive, "policy.keep_off_m", "1.5|2.0|2.5|3.0|4.0"}};
 
 /// Seven values of each setting, from its least to its greatest, and the usual one.
 std::vector<Coordinate> of_own(const kicking::Policy& policy) {
@@ -93,31 +90,22 @@ std::vector<Coordinate> of_own(const kicking::Policy& policy) {
   return space;
 }
 
-std::vector<std::string> keys_of(const std::string& choice) {
-  std::vector<std::string> keys;
-  std::istringstream lines{choice};
-  for (std::string line; std::getline(lines, line);) keys.push_back(line.substr(0, line.find(" = ")));
-  return keys;
-}
-
-constexpr std::array kSpaces{std::pair{kicking::PolicyName::kStopped, &of_stopped},
-                             std::pair{kicking::PolicyName::kMoving, &of_moving},
-                             std::pair{kicking::PolicyName::kPredictive, &of_predictive}};
-
 }  // namespace
 
 std::vector<std::string> tuned_policies() {
   std::vector<std::string> names;
-  names.reserve(kSpaces.size());
-  for (const auto& [policy, space] : kSpaces) names.emplace_back(kicking::name(policy));
+  for (const auto policy : {kStopped, kMoving, kPredictive}) names.emplace_back(kicking::name(policy));
   for (const kicking::Policy* own : kicking::policies().subspan(kicking::kPolicyCount))
     if (!own->facts().needs_program() && !own->settings().empty()) names.emplace_back(own->facts().name);
   return names;
 }
 
 std::vector<Coordinate> tuned_space(kicking::PolicyName policy) {
-  for (const auto& [tuned, space] : kSpaces)
-    if (tuned == policy) return space();
+  std::vector<Coordinate> space;
+  if (policy == kStopped || policy == kMoving) space.push_back(height());
+  for (const Tuned& tuned : kTuned)
+    if (tuned.policy == policy) space.push_back(coordinate(tuned.key, tuned.values));
+  if (!space.empty()) return space;
   if (from_outside(policy)) return of_own(*kicking::policies()[static_cast<std::size_t>(policy)]);
   throw std::invalid_argument{fmt::format("{} has no settings to choose", kicking::name(policy))};
 }
@@ -135,18 +123,13 @@ Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>&
     if (found != space.end()) return *found;
     refuse(fmt::format("write its values, too: {} '{}=V1|V2'", called, key));
   }
-  Coordinate made{key, {}};
+  Coordinate made = coordinate(key, text.substr(key.size() + 1));
   std::set<std::string> values;
-  std::istringstream parts{text.substr(key.size() + 1)};
-  for (std::string part; std::getline(parts, part, '|');) {
-    std::string choice = fmt::format("{} = {}", key, part);
-    try {
-      config::Settings settings = with_choice({}, choice);
-      values.insert(config::setting_values(settings).at(key));
-    } catch (const config::Error& error) {
-      refuse(error.what());
-    }
-    made.choices.push_back(std::move(choice));
+  try {
+    for (const std::string& choice : made.choices)
+      values.insert(config::setting_values(with_choice({}, choice)).at(key));
+  } catch (const config::Error& error) {
+    refuse(error.what());
   }
   if (values.size() < 2 || values.size() != made.choices.size())
     refuse(fmt::format("two or more values, each once: {} '{}=V1|V2'", called, key));
@@ -154,16 +137,17 @@ Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>&
 }
 
 config::Settings with_choice(config::Settings settings, const std::string& choice) {
-  std::istringstream lines{choice};
-  for (std::string line; std::getline(lines, line);) config::override_setting(settings, {line, line});
+  for (const std::string& line : split(choice, '\n')) config::override_setting(settings, {line, line});
   return settings;
 }
 
 std::string present_choice(const config::Settings& settings, const Coordinate& coordinate) {
   const auto values = config::setting_values(settings);
   std::vector<std::string> lines;
-  for (const std::string& key : keys_of(coordinate.choices.front()))
+  for (const std::string& line : split(coordinate.choices.front(), '\n')) {
+    const std::string key = line.substr(0, line.find(" = "));
     lines.push_back(fmt::format("{} = {}", key, values.at(key)));
+  }
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 

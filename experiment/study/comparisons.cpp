@@ -1,0 +1,161 @@
+#include "experiment/study/comparisons.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trivela::experiment {
+namespace {
+
+StudyAnswer answer_of_arms(std::vector<StudyRow>& rows, const StudyPlayed& played,
+                           const std::vector<RowChange>& changes) {
+  StudyAnswer answer;
+  for (StudyRow& row : rows) {
+    answer.text += label_warning(row.label("arm"), row.matches);
+    if (&row == &rows.front()) continue;
+    for (const Measure measure : {played.efficiency, Measure::kPerOpportunity})
+      row.changes.push_back(difference(row.matches, rows.front().matches, measure));
+  }
+  answer.svg = chart_of(rows, "", {played.efficiency, Measure::kPerOpportunity}, changes);
+  return answer;
+}
+
+bool below_zero(const StudyRow& row) {
+  return std::ranges::any_of(row.changes,
+                             [](const Effect& effect) { return has_interval(effect) && effect.ci.lo < 0.0; });
+}
+
+/// `arms` rows a world.
+StudyAnswer answer_of_worlds(std::vector<StudyRow>& rows, std::size_t arms, std::size_t rival,
+                             const std::vector<RowChange>& changes) {
+  std::vector<std::size_t> below(arms);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i % arms == rival) continue;
+    const StudyRow& against = rows[i - i % arms + rival];
+    rows[i].changes = {difference(rows[i].matches, against.matches, Measure::kPerOpportunity)};
+    below[i % arms] += below_zero(rows[i]) ? 1 : 0;
+  }
+  const std::string& name = rows[rival].label("arm");
+  StudyAnswer answer{.text = "\nNo robot is calibrated again. Worlds where the interval reaches below 0:\n",
+                     .more = {{"rival", name}},
+                     .svg = chart_of(rows, "arm", {Measure::kPerOpportunity}, changes)};
+  for (std::size_t i = 0; i < arms; ++i)
+    if (i != rival)
+      answer.text += fmt::format("  {} - {}: {} of {}\n", rows[i].label("arm"), name, below[i], rows.size() / arms);
+  return answer;
+}
+
+bool on_frontier(const StudyRow& row) { return !row.label("threshold").empty(); }
+
+double share(const MatchTally& tally, Measure measure) {
+  const auto counts = counts_of(tally, measure);
+  return static_cast<double>(counts.inside) / static_cast<double>(counts.n);
+}
+
+/// Shots on target of the best threshold over those of the oracle, the last row; the interval from 0 on.
+Effect share_of_oracle(const StudyRow& best, const StudyRow& oracle) {
+  Effect effect = jackknife({&best.matches, &oracle.matches}, [](const std::vector<MatchTally>& totals) {
+    return static_cast<double>(totals[0].on_target) / static_cast<double>(totals[1].on_target);
+  });
+  if (has_interval(effect)) effect.ci.lo = std::max(effect.ci.lo, 0.0);
+  return effect;
+}
+
+StudyAnswer answer_of_frontier(std::vector<StudyRow>& rows, const std::vector<RowChange>& changes) {
+  for (StudyRow& row : rows)
+    if (!on_frontier(row) && &row != &rows.back()) row.changes = {frontier_above(rows, row)};
+  const StudyRow& best = *std::ranges::max_element(
+      rows, {}, [](const StudyRow& row) { return on_frontier(row) ? total_of(row.matches).on_target : -1; });
+  const Effect of_oracle = share_of_oracle(best, rows.back());
+  return {.text = fmt::format("At its best threshold, {}, {} has {} % of the oracle's shots on target.\n",
+                              best.label("threshold"), best.label("policy"), share_text(of_oracle)),
+          .more = {{"policy", best.label("policy")},
+                   {"of_oracle", {{"threshold", std::stod(best.label("threshold"))}, {"share", json_of(of_oracle)}}}},
+          .svg = chart_of(rows, "", {Measure::kKicks, Measure::kEfficiency}, changes)};
+}
+
+}  // namespace
+
+Effect frontier_above(const std::vector<StudyRow>& rows, const StudyRow& fixed) {
+  const auto kicks_of = [](const StudyRow* row) { return total_of(row->matches).kicks; };
+  const std::int64_t kicks = kicks_of(&fixed);
+  std::vector<const StudyRow*> points;  // that kick, the most kicks first
+  for (const StudyRow& row : rows)
+    if (on_frontier(row) && kicks_of(&row) > 0) points.push_back(&row);
+  if (kicks == 0 || points.empty()) return {std::nan(""), {}};
+  std::ranges::stable_sort(points, std::ranges::greater{}, kicks_of);
+  const auto fewer = std::ranges::find_if(points, [&](const StudyRow* point) { return kicks_of(point) < kicks; });
+  const bool within = fewer != points.begin() && fewer != points.end();
+  const StudyRow& to = within ? **fewer : fewer == points.begin() ? *points.front() : *points.back();
+  const StudyRow& from = within ? **std::prev(fewer) : to;
+  const auto above = [within](const std::vector<MatchTally>& totals) {
+    const MatchTally &more = totals[0], &less = totals[1], &own = totals[2];
+    const double efficiency = share(own, Measure::kEfficiency);
+    if (!within) return share(less, Measure::kEfficiency) - efficiency;
+    const double most = share(more, Measure::kKicks), least = share(less, Measure::kKicks);
+    const double part = most > least ? (most - share(own, Measure::kKicks)) / (most - least) : 0.0;
+    return std::lerp(share(more, Measure::kPerOpportunity), share(less, Measure::kPerOpportunity), part) /
+               share(own, Measure::kKicks) -
+           efficiency;
+  };
+  Effect effect = jackknife({&from.matches, &to.matches, &fixed.matches}, above);
+  if (has_interval(effect)) effect.ci = {std::max(effect.ci.lo, -1.0), std::min(effect.ci.hi, 1.0)};
+  return effect;
+}
+
+Study arms_study(const sim::Scenario& scenario, const std::vector<Arm>& arms) {
+  StudyWorld world{.what = "the arms", .scenario = scenario, .arms = arms};
+  for (const Arm& arm : arms) world.labels.push_back({{"arm", arm.name}});
+  Study study{.name = "arms", .whom = "arm", .worlds = {std::move(world)}};
+  const std::string less = " minus " + arms.front().name;
+  if (arms.size() > 1)
+    study.changes = {{"minus_first/efficiency", "efficiency" + less},
+                     {"minus_first/on_target_per_opportunity", "on target/opp." + less}};
+  study.answer = [changes = study.changes](std::vector<StudyRow>& rows, const StudyPlayed& played) {
+    return answer_of_arms(rows, played, changes);
+  };
+  return study;
+}
+
+Study robustness_study(const std::vector<Arm>& arms, const std::string& rival,
+                       const std::vector<config::NamedWorld>& worlds) {
+  Study study{.name = "robustness", .whom = "arm of a world", .changes = {{"change", "minus " + rival}}};
+  for (const config::NamedWorld& named : worlds) {
+    StudyWorld& world = study.worlds.emplace_back(StudyWorld{named.name, named.scenario, arms});
+    for (const Arm& arm : arms) world.labels.push_back({{"world", named.name}, {"arm", arm.name}});
+  }
+  const auto place = static_cast<std::size_t>(std::ranges::find(arms, rival, &Arm::name) - arms.begin());
+  study.answer = [worlds, place, count = arms.size(), changes = study.changes](std::vector<StudyRow>& rows,
+                                                                               const StudyPlayed&) {
+    StudyAnswer answer = answer_of_worlds(rows, count, place, changes);
+    for (const config::NamedWorld& world : worlds)
+      answer.more["worlds"].push_back({{"world", world.name}, {"why", world.why}});
+    return answer;
+  };
+  return study;
+}
+
+Study frontier_study(const sim::Scenario& scenario, const Arm& policy, const std::vector<double>& thresholds,
+                     const std::vector<Arm>& beside) {
+  StudyWorld world{.what = "the frontier", .scenario = scenario};
+  for (const double threshold : thresholds) {
+    world.arms.push_back(policy);
+    world.arms.back().settings.policy.predictive.threshold = threshold;
+    world.labels.push_back({{"policy", policy.name}, {"threshold", fmt::format("{:g}", threshold)}});
+  }
+  for (const Arm& arm : beside) {
+    world.arms.push_back(arm);
+    world.labels.push_back({{"policy", arm.name}, {"threshold", ""}});
+  }
+  Study study{.name = "frontier",
+              .whom = "policy and threshold",
+              .changes = {{"frontier_above", "frontier above"}},
+              .worlds = {std::move(world)}};
+  study.answer = [changes = study.changes](std::vector<StudyRow>& rows, const StudyPlayed&) {
+    return answer_of_frontier(rows, changes);
+  };
+  return study;
+}
+
+}  // namespace trivela::experiment

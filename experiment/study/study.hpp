@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiment/play/arm.hpp"
+#include "experiment/study/report.hpp"
+#include "sim/scenario.hpp"
+
+namespace trivela::experiment {
+
+/// A world of a study, and who plays it: all arms meet the same opportunities.
+struct StudyWorld {
+  std::string what;  ///< "opponents at 2 m"; tells it from the study's other worlds
+  sim::Scenario scenario{};
+  std::vector<Arm> arms{};
+  std::vector<RowLabels> labels{};  ///< an arm's each
+};
+
+/// What a study says beside its rows.
+struct StudyAnswer {
+  std::string text{};          ///< sentences and tables below that of the rows
+  Json more = Json::object();  ///< fields of its JSON
+  std::string svg{};           ///< chart_of() some rows
+};
+
+/// A question that is answered by arms in worlds.
+struct Study {
+  std::string name;                  ///< of its verb
+  std::string whom;                  ///< meet the same opportunities: "cell"
+  std::vector<RowChange> changes{};  ///< of its rows
+  std::vector<StudyWorld> worlds{};  ///< the first is the scenario as it is
+  /// Of the rows, in the order of worlds and arms; gives them their changes, and may sort them.
+  std::function<StudyAnswer(std::vector<StudyRow>& rows, const StudyPlayed& played)> answer{};
+};
+
+/// What a study gives.
+struct StudyReport {
+  std::string text;
+  std::string csv;
+  Json json;
+  std::string svg;
+};
+StudyReport report_of(const Study& study, std::vector<StudyRow> rows, const StudyPlayed& played);
+
+/// What the rows of a study depend on besides seed, matches and calibrations, as text: its first scenario and arms, of
+/// each other world what is another value there.
+std::string arguments_of(const Study& study);
+
+/// Shares with their 95 % intervals, a panel a measure, then a panel a change, as SVG: a line for each thing that the
+/// labels tell apart but `series`, which has a colour for each of its texts. The first forty lines.
+std::string chart_of(const std::vector<StudyRow>& rows, const std::string& series, const std::vector<Measure>& measures,
+                     const std::vector<RowChange>& changes);
+
+}  // namespace trivela::experiment
