@@ -38,11 +38,10 @@ std::vector<double> sorted(std::vector<double> values) {
 }
 
 struct Arms : StudyFlags {
-  static constexpr const char *kName = "arms", *kAsks = "Arms on the same matches, each compared with the first",
-                              *kMore =
-                                  "As `trivela simulate`, but it keeps the counts of each match alone, 1.3 bytes an "
-                                  "opportunity in place of 650: no\n"
-                                  "decisions, distances, crossings or pairs of opportunities.";
+  static constexpr const char* kName = "arms";
+  static constexpr const char* kAsks = "Arms on the same matches, each compared with the first";
+  static constexpr const char* kMore =
+      "As `trivela simulate`, but it keeps the counts of each match alone: no decisions, distances or crossings.";
   std::string arms = "stopped@old,stopped,moving,predictive";
 
   void add_options(CLI::App& verb) {
@@ -55,12 +54,10 @@ struct Arms : StudyFlags {
 };
 
 struct Factorial : StudyFlags {
-  static constexpr const char *kName = "factorial", *kAsks = "What calibration buys and what motion buys",
-                              *kMore =
-                                  "{old, new height table} x {stopped, moving, predictive} x {paper, released, exact "
-                                  "law}, on the same opportunities.\n"
-                                  "The old table is drawn again for each match from the scenario's [hand_table]. "
-                                  "--robot: without it calibrated_1.";
+  static constexpr const char* kName = "factorial";
+  static constexpr const char* kAsks = "What calibration buys and what motion buys";
+  static constexpr const char* kMore =
+      "The old table is drawn again for each match from the scenario's [hand_table]. Without --robot: calibrated_1.";
   std::vector<double> opponent_medians_m{0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0};
   std::vector<double> eye_biases_m{0.0, 0.1, 0.15};
   std::string law = "released";
@@ -92,12 +89,10 @@ struct Factorial : StudyFlags {
 };
 
 struct Frontier : StudyFlags {
-  static constexpr const char *kName = "frontier",
-                              *kAsks = "Efficiency against volume, swept over a policy's firing threshold",
-                              *kMore =
-                                  "Whether a policy lies below the frontier is asked at its own number of kicks, the "
-                                  "frontier being linear between\n"
-                                  "thresholds: beyond them it is the nearest one.";
+  static constexpr const char* kName = "frontier";
+  static constexpr const char* kAsks = "Efficiency against volume, swept over a policy's firing threshold";
+  static constexpr const char* kMore =
+      "A policy is compared with the frontier at its own number of kicks; between thresholds the frontier is linear.";
   std::string policy = "predictive";
   std::vector<double> thresholds{0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95};
   std::string beside = config::shipped("arms/baselines.toml").string();
@@ -122,13 +117,10 @@ struct Frontier : StudyFlags {
 };
 
 struct Robustness : StudyFlags {
-  static constexpr const char *kName = "robustness", *kAsks = "How policies stand worlds that robots do not expect",
-                              *kMore =
-                                  "Each world is played by every arm, on the same opportunities. Robots are calibrated "
-                                  "in the study's scenario\n"
-                                  "(--calibrations) and not again. The arms of config/arms/robustness.toml decide by "
-                                  "the robots' files, and by what\n"
-                                  "their kicks have shown (self_calibration.mode = \"on\").";
+  static constexpr const char* kName = "robustness";
+  static constexpr const char* kAsks = "How policies stand worlds that robots do not expect";
+  static constexpr const char* kMore =
+      "Every arm plays every world. Robots are calibrated in the study's scenario (--calibrations) and not again.";
   std::string arms = config::shipped("arms/robustness.toml").string();
   std::string rival = "moving";
   std::string worlds = config::shipped("studies/robustness.toml").string();
@@ -152,15 +144,10 @@ struct Robustness : StudyFlags {
 };
 
 struct Sensitivity : StudyFlags {
-  static constexpr const char *kName = "sensitivity",
-                              *kAsks = "How far the comparison of policies rests on assumed inputs",
-                              *kMore =
-                                  "Each uncertain input of the scenario and each setting of the policies is set to a "
-                                  "low and a high value\n"
-                                  "(config/studies/sensitivity.csv says which and why), one at a time, and the same "
-                                  "opportunities are played.\n"
-                                  "Robots are not calibrated again. Inputs of the hand table matter to arms with it "
-                                  "(@old) alone.";
+  static constexpr const char* kName = "sensitivity";
+  static constexpr const char* kAsks = "How far the comparison of policies rests on assumed inputs";
+  static constexpr const char* kMore =
+      "One input at a time; robots are not calibrated again. The hand table matters to arms with it (@old) alone.";
   std::string arms = "stopped@old,stopped,moving,predictive";
   std::string table = config::shipped("studies/sensitivity.csv").string();
   std::vector<std::string> inputs;

@@ -10,13 +10,11 @@
 namespace trivela::cli {
 namespace {
 
-log::StudyPlan plan_of(const StudyFlags& flags, const std::string& name, const std::string& arguments) {
-  const experiment::PlayPlan& plan = flags.plan;
-  return {.arguments = fmt::format("program = {}\nstudy = {}\nseed = {}\nmatches = {}\npossessions = {}\n"
-                                   "calibrations = {}\n{}",
-                                   config::software_version(), name, plan.seed, plan.matches, plan.possessions,
-                                   plan.calibrations.size(), arguments),
-          .matches = plan.matches};
+/// What the rows of a study depend on.
+std::string all_arguments_of(const experiment::PlayPlan& plan, const std::string& name, const std::string& arguments) {
+  return fmt::format("program = {}\nstudy = {}\nseed = {}\nmatches = {}\npossessions = {}\ncalibrations = {}\n{}",
+                     config::software_version(), name, plan.seed, plan.matches, plan.possessions,
+                     plan.calibrations.size(), arguments);
 }
 
 /// A file that is not there yet, in this folder.
@@ -31,7 +29,7 @@ std::string free_name(const std::string& name) {
 StudyRun::StudyRun(const StudyFlags& flags, const std::string& name, const std::string& arguments, std::size_t arms)
     : flags_(flags),
       name_(name),
-      results_(flags.results, plan_of(flags, name, arguments)),
+      results_(flags.results, all_arguments_of(flags.plan, name, arguments), flags.plan.matches),
       knows_all_(arms > 0),
       expected_(static_cast<double>(arms) * log::range_of(flags.shard, flags.plan.matches).size()) {
   for (const std::string& file : flags.with) results_.take_over(file);

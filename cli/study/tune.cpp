@@ -164,13 +164,11 @@ void add_study_tune(CLI::App& study, int& exit_code) {
       ->check(seeds());
   add_play_options(*verb, *flags);
   verb->footer(
-      "Coordinate search: each setting in turn gets the value with the most shots on target per opportunity, on the "
-      "same\n"
-      "matches and calibrations for all. Then the settings that were found are played on matches and calibrations that "
-      "no\n"
-      "choice was made by. Ctrl-C keeps the best so far (exit code 1). A shard plays its part of one step and ends "
-      "with exit\n"
-      "code 3, with 0 when the search has ended; give its next step the results of all shards (docs/studies.md).");
+      "Each setting in turn gets the value with the most shots on target per opportunity; what was found is then "
+      "played\n"
+      "on other matches and calibrations. Ctrl-C keeps the best so far (exit code 1). A shard plays its part of one "
+      "step\n"
+      "and ends with exit code 3, with 0 when the search has ended (docs/studies.md).");
   verb->callback([flags, &exit_code] { exit_code = study_tune(*flags); });
 }
 

@@ -8,8 +8,7 @@
 namespace trivela::experiment {
 namespace {
 
-StudyAnswer answer_of_arms(std::vector<StudyRow>& rows, const StudyPlayed& played,
-                           const std::vector<RowChange>& changes) {
+StudyAnswer answer_of_arms(const Study& study, std::vector<StudyRow>& rows, const StudyPlayed& played) {
   StudyAnswer answer;
   for (StudyRow& row : rows) {
     answer.text += label_warning(row.label("arm"), row.matches);
@@ -17,7 +16,7 @@ StudyAnswer answer_of_arms(std::vector<StudyRow>& rows, const StudyPlayed& playe
     for (const Measure measure : {played.efficiency, Measure::kPerOpportunity})
       row.changes.push_back(difference(row.matches, rows.front().matches, measure));
   }
-  answer.svg = chart_of(rows, "", {played.efficiency, Measure::kPerOpportunity}, changes);
+  answer.svg = chart_of(rows, "", {played.efficiency, Measure::kPerOpportunity}, study.changes);
   return answer;
 }
 
@@ -26,9 +25,8 @@ bool below_zero(const StudyRow& row) {
                              [](const Effect& effect) { return has_interval(effect) && effect.ci.lo < 0.0; });
 }
 
-/// `arms` rows a world.
-StudyAnswer answer_of_worlds(std::vector<StudyRow>& rows, std::size_t arms, std::size_t rival,
-                             const std::vector<RowChange>& changes) {
+StudyAnswer answer_of_worlds(const Study& study, std::vector<StudyRow>& rows, std::size_t rival) {
+  const std::size_t arms = study.worlds.front().arms.size();
   std::vector<std::size_t> below(arms);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (i % arms == rival) continue;
@@ -39,10 +37,12 @@ StudyAnswer answer_of_worlds(std::vector<StudyRow>& rows, std::size_t arms, std:
   const std::string& name = rows[rival].label("arm");
   StudyAnswer answer{.text = "\nNo robot is calibrated again. Worlds where the interval reaches below 0:\n",
                      .more = {{"rival", name}},
-                     .svg = chart_of(rows, "arm", {Measure::kPerOpportunity}, changes)};
+                     .svg = chart_of(rows, "arm", {Measure::kPerOpportunity}, study.changes)};
   for (std::size_t i = 0; i < arms; ++i)
     if (i != rival)
       answer.text += fmt::format("  {} - {}: {} of {}\n", rows[i].label("arm"), name, below[i], rows.size() / arms);
+  for (const StudyWorld& world : study.worlds)
+    answer.more["worlds"].push_back({{"world", world.what}, {"why", world.why}});
   return answer;
 }
 
@@ -62,7 +62,7 @@ Effect share_of_oracle(const StudyRow& best, const StudyRow& oracle) {
   return effect;
 }
 
-StudyAnswer answer_of_frontier(std::vector<StudyRow>& rows, const std::vector<RowChange>& changes) {
+StudyAnswer answer_of_frontier(const Study& study, std::vector<StudyRow>& rows, const StudyPlayed&) {
   for (StudyRow& row : rows)
     if (!on_frontier(row) && &row != &rows.back()) row.changes = {frontier_above(rows, row)};
   const StudyRow& best = *std::ranges::max_element(
@@ -72,7 +72,7 @@ StudyAnswer answer_of_frontier(std::vector<StudyRow>& rows, const std::vector<Ro
                               best.label("threshold"), best.label("policy"), share_text(of_oracle)),
           .more = {{"policy", best.label("policy")},
                    {"of_oracle", {{"threshold", std::stod(best.label("threshold"))}, {"share", json_of(of_oracle)}}}},
-          .svg = chart_of(rows, "", {Measure::kKicks, Measure::kEfficiency}, changes)};
+          .svg = chart_of(rows, "", {Measure::kKicks, Measure::kEfficiency}, study.changes)};
 }
 
 }  // namespace
@@ -107,14 +107,11 @@ Effect frontier_above(const std::vector<StudyRow>& rows, const StudyRow& fixed) 
 Study arms_study(const sim::Scenario& scenario, const std::vector<Arm>& arms) {
   StudyWorld world{.what = "the arms", .scenario = scenario, .arms = arms};
   for (const Arm& arm : arms) world.labels.push_back({{"arm", arm.name}});
-  Study study{.name = "arms", .whom = "arm", .worlds = {std::move(world)}};
+  Study study{.name = "arms", .whom = "arm", .worlds = {std::move(world)}, .answer = answer_of_arms};
   const std::string less = " minus " + arms.front().name;
   if (arms.size() > 1)
     study.changes = {{"minus_first/efficiency", "efficiency" + less},
                      {"minus_first/on_target_per_opportunity", "on target/opp." + less}};
-  study.answer = [changes = study.changes](std::vector<StudyRow>& rows, const StudyPlayed& played) {
-    return answer_of_arms(rows, played, changes);
-  };
   return study;
 }
 
@@ -122,16 +119,12 @@ Study robustness_study(const std::vector<Arm>& arms, const std::string& rival,
                        const std::vector<config::NamedWorld>& worlds) {
   Study study{.name = "robustness", .whom = "arm of a world", .changes = {{"change", "minus " + rival}}};
   for (const config::NamedWorld& named : worlds) {
-    StudyWorld& world = study.worlds.emplace_back(StudyWorld{named.name, named.scenario, arms});
+    StudyWorld& world = study.worlds.emplace_back(StudyWorld{named.name, named.scenario, arms, {}, named.why});
     for (const Arm& arm : arms) world.labels.push_back({{"world", named.name}, {"arm", arm.name}});
   }
   const auto place = static_cast<std::size_t>(std::ranges::find(arms, rival, &Arm::name) - arms.begin());
-  study.answer = [worlds, place, count = arms.size(), changes = study.changes](std::vector<StudyRow>& rows,
-                                                                               const StudyPlayed&) {
-    StudyAnswer answer = answer_of_worlds(rows, count, place, changes);
-    for (const config::NamedWorld& world : worlds)
-      answer.more["worlds"].push_back({{"world", world.name}, {"why", world.why}});
-    return answer;
+  study.answer = [place](const Study& asked, std::vector<StudyRow>& rows, const StudyPlayed&) {
+    return answer_of_worlds(asked, rows, place);
   };
   return study;
 }
@@ -148,14 +141,11 @@ Study frontier_study(const sim::Scenario& scenario, const Arm& policy, const std
     world.arms.push_back(arm);
     world.labels.push_back({{"policy", arm.name}, {"threshold", ""}});
   }
-  Study study{.name = "frontier",
-              .whom = "policy and threshold",
-              .changes = {{"frontier_above", "frontier above"}},
-              .worlds = {std::move(world)}};
-  study.answer = [changes = study.changes](std::vector<StudyRow>& rows, const StudyPlayed&) {
-    return answer_of_frontier(rows, changes);
-  };
-  return study;
+  return {.name = "frontier",
+          .whom = "policy and threshold",
+          .changes = {{"frontier_above", "frontier above"}},
+          .worlds = {std::move(world)},
+          .answer = answer_of_frontier};
 }
 
 }  // namespace trivela::experiment

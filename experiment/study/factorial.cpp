@@ -160,7 +160,7 @@ void add_ratio(StudyAnswer& answer, const RatioMet& met) {
                           {"ratio_to_m", evaluator::json_of(met.to_m)}};
 }
 
-StudyAnswer answer_of(const std::vector<StudyRow>& rows, const StudyPlayed& played) {
+StudyAnswer answer_of(const Study&, const std::vector<StudyRow>& rows, const StudyPlayed& played) {
   std::vector<StudyRow> cells;
   std::ranges::copy_if(rows, std::back_inserter(cells), [](const auto& row) { return row.label("kind") == "cell"; });
   StudyAnswer answer{.svg = chart_of(cells, "table", {played.efficiency, Measure::kPerOpportunity}, {})};
@@ -218,7 +218,10 @@ RatioMet ratio_met(const std::vector<StudyRow>& rows) {
 
 Study factorial_study(const sim::Scenario& scenario, const Arm& like, const std::string& law,
                       const std::vector<double>& opponent_medians_m, const std::vector<double>& eye_biases_m) {
-  Study study{.name = "factorial", .whom = "cell", .worlds = {{.what = "the factorial", .scenario = scenario}}};
+  Study study{.name = "factorial",
+              .whom = "cell",
+              .worlds = {{.what = "the factorial", .scenario = scenario}},
+              .answer = answer_of};
   for (const char* table : {kOldTable, kNewTable}) {
     StudyWorld& world = study.worlds.front();
     for (const PolicyName policy : {PolicyName::kStopped, PolicyName::kMoving})
@@ -241,7 +244,6 @@ Study factorial_study(const sim::Scenario& scenario, const Arm& like, const std:
     world.hand_table.target_height_m += bias_m;  // what seems right lies so much too high
     add("bias", fmt::format("an eye off by {:g} m", bias_m), world, fmt::format("{:g}", bias_m));
   }
-  study.answer = answer_of;
   return study;
 }
 

@@ -47,8 +47,8 @@ Json value_of_text(const std::string& text) {
   return number.is_discarded() ? Json(text) : number;
 }
 
-StudyAnswer answer_of(std::vector<StudyRow>& rows, std::size_t arms, Measure measure, std::vector<Known> inputs,
-                      const std::vector<RowChange>& changes) {
+StudyAnswer answer_of(const Study& study, std::vector<StudyRow>& rows, Measure measure, std::vector<Known> inputs) {
+  const std::size_t arms = study.worlds.front().arms.size();
   compare(rows, arms, measure, inputs);
   std::ranges::stable_sort(inputs, std::ranges::greater{}, &Known::largest);
   sort(rows, inputs);
@@ -57,7 +57,7 @@ StudyAnswer answer_of(std::vector<StudyRow>& rows, std::size_t arms, Measure mea
       .text = fmt::format("\n{} per 100 opportunities; no robot is calibrated again:\n",
                           goals ? "Goals past the keeper" : "Shots on target"),
       .more = {{"measure", goals ? "goals" : "on_target"}},
-      .svg = chart_of({rows.begin() + static_cast<std::ptrdiff_t>(arms), rows.end()}, "arm", {}, changes)};
+      .svg = chart_of({rows.begin() + static_cast<std::ptrdiff_t>(arms), rows.end()}, "arm", {}, study.changes)};
   for (std::size_t i = 1; i < arms; ++i) {
     const std::string name = fmt::format("{} - {}", rows[i].label("arm"), rows[i - 1].label("arm"));
     const Effect effect = difference(rows[i].matches, rows[i - 1].matches, measure);
@@ -107,8 +107,8 @@ Study sensitivity_study(const sim::Scenario& scenario, const std::vector<Arm>& a
       }
     }
   }
-  study.answer = [=, changes = study.changes, count = arms.size()](std::vector<StudyRow>& rows, const StudyPlayed&) {
-    return answer_of(rows, count, measure, known, changes);
+  study.answer = [=](const Study& asked, std::vector<StudyRow>& rows, const StudyPlayed&) {
+    return answer_of(asked, rows, measure, known);
   };
   return study;
 }

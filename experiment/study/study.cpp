@@ -10,7 +10,7 @@
 namespace trivela::experiment {
 
 StudyReport report_of(const Study& study, std::vector<StudyRow> rows, const StudyPlayed& played) {
-  StudyAnswer answer = study.answer(rows, played);
+  StudyAnswer answer = study.answer(study, rows, played);
   StudyReport report{.text = heading(played, study.whom) + table_of(rows, study.changes, played) + answer.text,
                      .csv = csv_of(rows, study.changes, played),
                      .json = json_of(study.name, rows, study.changes, played),

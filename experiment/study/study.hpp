@@ -16,6 +16,7 @@ struct StudyWorld {
   sim::Scenario scenario{};
   std::vector<Arm> arms{};
   std::vector<RowLabels> labels{};  ///< an arm's each
+  std::string why{};                ///< it is as it is
 };
 
 /// What a study says beside its rows.
@@ -31,8 +32,8 @@ struct Study {
   std::string whom;                  ///< meet the same opportunities: "cell"
   std::vector<RowChange> changes{};  ///< of its rows
   std::vector<StudyWorld> worlds{};  ///< the first is the scenario as it is
-  /// Of the rows, in the order of worlds and arms; gives them their changes, and may sort them.
-  std::function<StudyAnswer(std::vector<StudyRow>& rows, const StudyPlayed& played)> answer{};
+  /// Of this study's rows, in the order of worlds and arms; gives them their changes, and may sort them.
+  std::function<StudyAnswer(const Study& study, std::vector<StudyRow>& rows, const StudyPlayed& played)> answer{};
 };
 
 /// What a study gives.

@@ -24,14 +24,8 @@ FileTaken taken_file(const fs::path& path, const std::string& why) {
   return FileTaken(fmt::format("{}: {}", path.string(), why));
 }
 
-void create(SQLite::Database& database, const StudyPlan& plan) {
-  SQLite::Transaction transaction(database);
-  create_study(database, {plan.arguments, plan.matches, false});
-  transaction.commit();
-}
-
 /// The file of a run that was stopped, or has just begun.
-std::unique_ptr<SQLite::Database> resume(const fs::path& path, const StudyPlan& plan) {
+std::unique_ptr<SQLite::Database> resume(const fs::path& path, const std::string& arguments) {
   refuse_wal_of_another(path, wal_beside(path));
   try {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE);
@@ -42,8 +36,8 @@ std::unique_ptr<SQLite::Database> resume(const fs::path& path, const StudyPlan& 
       throw taken_file(path, "is there already and has no study results of this version; choose another file");
     check_schema(*database, kStudyResults, path.string());
     SQLite::Statement known(*database, "SELECT arguments FROM studies");
-    const std::string arguments = known.executeStep() ? known.getColumn(0).getString() : "";
-    if (arguments != plan.arguments) throw other_arguments(path, "a study", arguments, plan.arguments);
+    const std::string begun = known.executeStep() ? known.getColumn(0).getString() : "";
+    if (begun != arguments) throw other_arguments(path, "a study", begun, arguments);
     return database;
   } catch (const SQLite::Exception& error) {
     if (is_busy(error)) throw taken_file(path, "another run writes to it");
@@ -51,15 +45,20 @@ std::unique_ptr<SQLite::Database> resume(const fs::path& path, const StudyPlan& 
   }
 }
 
-std::unique_ptr<SQLite::Database> open(const fs::path& path, const StudyPlan& plan) {
+std::unique_ptr<SQLite::Database> open(const fs::path& path, const std::string& arguments, std::uint32_t matches) {
+  const auto create = [&](SQLite::Database& database) {
+    SQLite::Transaction transaction(database);
+    create_study(database, {arguments, matches, false});
+    transaction.commit();
+  };
   if (path.empty()) {
     auto database = std::make_unique<SQLite::Database>(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    create(*database, plan);
+    create(*database);
     return database;
   }
   const bool there = fs::exists(path) && (!fs::is_regular_file(path) || fs::file_size(path) > 0);
-  if (!there) fold(*new_file(path, kStudyResults, [&](SQLite::Database& database) { create(database, plan); }));
-  return resume(path, plan);
+  if (!there) fold(*new_file(path, kStudyResults, create));
+  return resume(path, arguments);
 }
 
 /// The columns of table tallies but arm_id.
@@ -71,8 +70,8 @@ std::string tally_columns() {
 
 }  // namespace
 
-StudyResults::StudyResults(const fs::path& path, const StudyPlan& plan)
-    : path_(path), plan_(plan), database_(open(path, plan)) {}
+StudyResults::StudyResults(const fs::path& path, const std::string& arguments, std::uint32_t matches)
+    : path_(path), arguments_(arguments), database_(open(path, arguments, matches)) {}
 StudyResults::~StudyResults() = default;
 
 void StudyResults::begin() {
@@ -92,9 +91,8 @@ void StudyResults::written(const std::function<void()>& work) const {
 void StudyResults::take_over(const fs::path& path) {
   std::error_code none;
   if (fs::equivalent(path, path_, none)) return;
-  LogFile(path, kStudyResults, Check::kWhole).query("SELECT arguments FROM studies", [&](const std::string& arguments) {
-    if (arguments != plan_.arguments)
-      throw std::runtime_error(fmt::format("{}: has results of another study", path.string()));
+  LogFile(path, kStudyResults, Check::kWhole).query("SELECT arguments FROM studies", [&](const std::string& theirs) {
+    if (theirs != arguments_) throw std::runtime_error(fmt::format("{}: has results of another study", path.string()));
   });
   commit();
   written([&] {

@@ -45,20 +45,15 @@ inline constexpr std::array kTallyFields{TallyField{"opportunities", &MatchTally
 /// An arm's matches, in the order of their numbers.
 using ArmTally = std::vector<MatchTally>;
 
-/// What a study was asked for.
-struct StudyPlan {
-  std::string arguments;      ///< everything that its rows depend on, as text
-  std::uint32_t matches = 0;  ///< of each arm, of the whole study
-};
-
 /// What a study, or a shard of it, has played so far, match by match: no match is played twice, however often the run
 /// is stopped. The same arms and matches make the same rows, in any order. For one thread and one process at a time:
 /// the file is locked.
 class StudyResults {
  public:
-  /// Makes the file, or goes on with it; without a path the results are in memory until save(). Throws FileTaken naming
-  /// the file where it is something else, of other arguments, or in use.
-  StudyResults(const std::filesystem::path& path, const StudyPlan& plan);
+  /// Makes the file, or goes on with it; without a path the results are in memory until save(). `arguments`: everything
+  /// that the rows depend on, as text; `matches` of each arm, of the whole study. Throws FileTaken naming the file
+  /// where it is something else, of other arguments, or in use.
+  StudyResults(const std::filesystem::path& path, const std::string& arguments, std::uint32_t matches);
   ~StudyResults();
   StudyResults(const StudyResults&) = delete;
   StudyResults& operator=(const StudyResults&) = delete;
@@ -92,7 +87,7 @@ class StudyResults {
   void written(const std::function<void()>& work) const;
 
   std::filesystem::path path_;
-  StudyPlan plan_;
+  std::string arguments_;
   std::unique_ptr<SQLite::Database> database_;
   std::optional<std::chrono::steady_clock::time_point> begun_{};  // of the matches in one transaction
 };
