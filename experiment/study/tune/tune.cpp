@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "evaluator/render/text_table.hpp"
 
@@ -20,12 +19,10 @@ Effect gain_of(const ArmTally& tried, const ArmTally& present) {
 bool improve(const Coordinate& coordinate, int round, const PlaySettings& play, TuneState& state) {
   const std::string present = present_choice(state.settings, coordinate);
   const auto before = config::setting_values(state.settings);
-  std::vector<std::string> choices;
   std::vector<config::Settings> candidates;
   for (const std::string& choice : coordinate.choices) {
     config::Settings candidate = with_choice(state.settings, choice);
     if (config::setting_values(candidate) == before) continue;
-    choices.push_back(choice);
     candidates.push_back(std::move(candidate));
   }
   if (candidates.empty()) return false;
@@ -54,8 +51,7 @@ std::string described(const StudyPlayed& matches) {
 /// "settle_s = 0.1, ..." of lines that begin with "policy.".
 std::string in_one_line(const std::string& choice) {
   std::string text;
-  std::istringstream lines{choice};
-  for (std::string line; std::getline(lines, line);)
+  for (const std::string& line : split(choice, '\n'))
     text += (text.empty() ? "" : ", ") + (line.starts_with("policy.") ? line.substr(7) : line);
   return text;
 }
@@ -80,10 +76,9 @@ std::map<std::string, std::string> named(const TuneReport& report) {
   const auto values = config::setting_values(report.state.settings);
   const auto defaults = config::setting_values({});
   std::set<std::string> searched;
-  for (const Coordinate& coordinate : report.space) {
-    std::istringstream lines{present_choice(report.state.settings, coordinate)};
-    for (std::string line; std::getline(lines, line);) searched.insert(line.substr(0, line.find(" = ")));
-  }
+  for (const Coordinate& coordinate : report.space)
+    for (const std::string& line : split(coordinate.choices.front(), '\n'))
+      searched.insert(line.substr(0, line.find(" = ")));
   std::map<std::string, std::string> kept;
   for (const auto& [key, value] : values) {
     const bool own = key.starts_with("policy.") && (searched.contains(key) || defaults.at(key) != value);
@@ -122,8 +117,7 @@ std::string to_settings_file(const TuneReport& report, const fs::path& out) {
       "# Settings of {} for the world {}, simulated, found by\n#   {}\n# Objective: observed shots on target per "
       "opportunity [%], 95 % intervals by match{}.\n",
       report.policy, report.tuning.scenario, report.command, report.tuning.calibrations > 0 ? " and calibration" : "");
-  std::istringstream lines{outcome(report)};
-  for (std::string line; std::getline(lines, line);) text += "# " + line + '\n';
+  for (const std::string& line : split(outcome(report), '\n')) text += "# " + line + '\n';
   const fs::path folder = fs::absolute(out).parent_path();
   const auto relative = [&](const std::string& file) {
     return fs::relative(fs::absolute(file), folder).generic_string();

@@ -15,13 +15,6 @@
 namespace trivela::experiment {
 namespace {
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts;
-  std::istringstream rest{text};
-  for (std::string part; std::getline(rest, part, at);) parts.push_back(part);
-  return parts;
-}
-
 /// "KEY", "V1|V2".
 Coordinate coordinate(const std::string& key, const std::string& values) {
   Coordinate made{key, {}};
@@ -91,6 +84,13 @@ std::vector<Coordinate> of_own(const kicking::Policy& policy) {
 }
 
 }  // namespace
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream rest{text};
+  for (std::string part; std::getline(rest, part, at);) parts.push_back(part);
+  return parts;
+}
 
 std::vector<std::string> tuned_policies() {
   std::vector<std::string> names;

@@ -14,6 +14,9 @@ struct Coordinate {
   std::vector<std::string> choices;  ///< each TOML lines such as `policy.settle_s = 0.1`, of the same keys
 };
 
+/// The parts of a text between these characters; without a last one that is empty.
+std::vector<std::string> split(const std::string& text, char at);
+
 /// What `trivela tune` searches: the settings of a policy that are its own choice. Limits of the robot (speeds,
 /// accelerations), what is safe (ages of states and orders) and the goal's size are no choice. Throws
 /// std::invalid_argument for a policy without settings to choose.
