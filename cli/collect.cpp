@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -71,23 +70,20 @@ int run_collect(const CollectArguments& arguments) {
 }  // namespace
 
 void add_collect(CLI::App& app, int& exit_code) {
-  auto* const verb = app.add_subcommand("collect", "Fetch the finished match logs of a team's robots");
+  const auto [verb, arguments] =
+      add_verb(app, exit_code, "collect", "Fetch the finished match logs of a team's robots", run_collect);
   verb->footer(
       "By rsync over ssh, with the keys that ssh finds. Logs land in DIR/HOST and are checked there; a broken "
       "transfer\n"
       "goes on where it was. Nothing is changed or deleted on a robot. Logs that are being written are left alone. "
       "Ends\n"
       "with \"missing: nothing\", or with what is missing and exit code 3. Then: trivela merge OUT DIR/*/*.db");
-  const auto arguments = std::make_shared<CollectArguments>();
   verb->add_option("hosts", arguments->hosts,
                    "A team's file (.toml), or [USER@]HOST[:PATH] of each robot, PATH a folder of logs or one log")
       ->required();
   verb->add_option("--to", arguments->to, "Folder that the logs are put in, made where it is not there")->required();
-  verb->add_option("--path", arguments->folder, "Folder of the logs on those robots that name none")
-      ->capture_default_str();
-  verb->add_option("--ssh", arguments->ssh, "Program that runs a command on a host, called as ssh is")
-      ->capture_default_str();
-  verb->callback([arguments, &exit_code] { exit_code = run_collect(*arguments); });
+  add_default(*verb, "--path", arguments->folder, "Folder of the logs on those robots that name none");
+  add_default(*verb, "--ssh", arguments->ssh, "Program that runs a command on a host, called as ssh is");
 }
 
 }  // namespace trivela::cli

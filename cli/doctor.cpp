@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -129,11 +128,16 @@ int examine(const DoctorFlags& flags) {
   return bad ? kFailed : kDone;
 }
 
+int run_doctor(const DoctorFlags& flags) {
+  if (flags.logs.empty() && !flags.network) throw UsageError{"say which: match logs, or --network"};
+  return flags.logs.empty() ? examine(with_team(flags)) : examine_logs(flags);
+}
+
 }  // namespace
 
 void add_doctor(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("doctor", "Say what is wrong with logs or this machine's network, and what to do");
-  auto flags = std::make_shared<DoctorFlags>();
+  const auto [verb, flags] = add_verb(
+      app, exit_code, "doctor", "Say what is wrong with logs or this machine's network, and what to do", run_doctor);
   verb->footer(
       "Of logs: their rows against their digests, sessions that were never closed, gaps, a -wal left behind, a match\n"
       "that was cut short, the goal line against the tracks of balls, clocks that jumped, and of several kicks of\n"
@@ -146,9 +150,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
   auto* const logs = verb->add_option("logs", flags->logs, "match logs");
   verb->add_flag("--network", flags->network, "interface, multicast, buffers, clock, ports, peers, firewall")
       ->excludes(logs);
-  verb->add_option("--config", flags->config, "whose [domain] is looked at")
-      ->check(readable_file())
-      ->capture_default_str();
+  add_default(*verb, "--config", flags->config, "whose [domain] is looked at", readable_file());
   verb->add_option("--domain", flags->domain, "DDS domain instead of the configuration's")->check(CLI::Range(0, 100));
   verb->add_option("--interface", flags->interface,
                    "name or address; default: what the DDS configuration names, else the first that is up");
@@ -157,10 +159,6 @@ void add_doctor(CLI::App& app, int& exit_code) {
                    "a team's file: its machines are peers, its interface and domain are looked at")
       ->check(readable_file());
   verb->add_flag("--json", flags->json, "findings as JSON");
-  verb->callback([flags, &exit_code] {
-    if (flags->logs.empty() && !flags->network) throw UsageError{"say which: match logs, or --network"};
-    exit_code = flags->logs.empty() ? examine(with_team(*flags)) : examine_logs(*flags);
-  });
 }
 
 }  // namespace trivela::cli

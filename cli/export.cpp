@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include "cli/launch/progress_bar.hpp"
@@ -87,12 +86,12 @@ int run_export(const ExportFlags& flags) {
 }  // namespace
 
 void add_export(CLI::App& app, int& exit_code) {
-  auto* const verb = app.add_subcommand("export", "Write a match log as CSV, or as MCAP for Foxglove and PlotJuggler");
+  const auto [verb, flags] = add_verb(app, exit_code, "export",
+                                      "Write a match log as CSV, or as MCAP for Foxglove and PlotJuggler", run_export);
   verb->footer(
       "A file or folder gets its name when it is whole: nothing half is left behind by Ctrl-C. Streams are the tables\n"
       "of log/schema/schema.sql; names of columns say the units, NULL is an empty cell, and every number is read\n"
       "back to the bit. The log is only read.");
-  const auto flags = std::make_shared<ExportFlags>();
   verb->add_option("log", flags->log, "Match log")->required();
   verb->add_option("--csv", flags->csv, "New folder: a CSV file a stream")->type_name("FOLDER");
   verb->add_option("--mcap", flags->mcap, "New file: all streams in time, with what a 3D view shows")
@@ -100,7 +99,6 @@ void add_export(CLI::App& app, int& exit_code) {
   verb->add_option("--stream", flags->plan.streams, "Only these, such as kick_decisions,kick_outcomes")->delimiter(',');
   verb->add_option("--session", flags->plan.sessions, "Only sessions whose uuid begins so")->delimiter(',');
   verb->add_flag("--force", flags->force, "Overwrite what is there");
-  verb->callback([flags, &exit_code] { exit_code = run_export(*flags); });
 }
 
 }  // namespace trivela::cli

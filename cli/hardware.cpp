@@ -167,14 +167,14 @@ int run_hardware(const HardwareFlags& flags) {
 }  // namespace
 
 void add_hardware(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("hardware", "List a robot's devices, show what they say, try one at a time");
-  auto flags = std::make_shared<HardwareFlags>();
+  const auto [verb, flags] = add_verb(app, exit_code, "hardware",
+                                      "List a robot's devices, show what they say, try one at a time", run_hardware);
   verb->footer(
       "Opens what the nodes of this configuration would open. A device that somebody else has is left to them.\n"
       "Exit codes: 0 all that is configured answers, or the test went well; 1 a device does not answer, did not for a\n"
       "while or was not opened, a wheel did something else, a kick was refused, not confirmed or interrupted;\n"
       "2 bad usage.");
-  verb->add_option("--config", flags->config, "configuration of the nodes")->capture_default_str();
+  add_default(*verb, "--config", flags->config, "configuration of the nodes");
   verb->add_option("--set", flags->overrides, "one setting on top, e.g. --set 'hal.kicker=\"ioboard\"'");
   verb->add_option("--seconds", flags->seconds,
                    "show values for so long (a line a second in a pipe); a spin's length, up to 10")
@@ -188,7 +188,6 @@ void add_hardware(CLI::App& app, int& exit_code) {
   verb->add_flag("--kick", flags->kick, "one kick with the lowest set-point, after a typed confirmation")
       ->excludes(wheel);
   verb->add_flag("--armed", flags->armed, "kick: the kicker may be fired");
-  verb->callback([flags, &exit_code] { exit_code = run_hardware(*flags); });
 }
 
 }  // namespace trivela::cli

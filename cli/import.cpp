@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -95,8 +94,8 @@ int import_refbox(const RefboxArguments& arguments) {
 }
 
 void add_import_refbox(CLI::App& verb, int& exit_code) {
-  auto* const subcommand = verb.add_subcommand("refbox", "Logs of the league's referee box: the game, their faults");
-  const auto arguments = std::make_shared<RefboxArguments>();
+  const auto [subcommand, arguments] =
+      add_verb(verb, exit_code, "refbox", "Logs of the league's referee box: the game, their faults", import_refbox);
   subcommand->add_option("files", arguments->files, "TIME.msl, TIME.A.msl (cyan), TIME.B.msl (magenta), or their zip")
       ->required()
       ->type_name("FILE");
@@ -109,7 +108,6 @@ void add_import_refbox(CLI::App& verb, int& exit_code) {
   subcommand->footer(
       "Records count in the order of the file and by game time. Ends with 1 where nothing could be used, with 3\n"
       "where lines or records could not.");
-  subcommand->callback([arguments, &exit_code] { exit_code = import_refbox(*arguments); });
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -116,7 +115,8 @@ int run_label(const LabelArguments& arguments) {
 }  // namespace
 
 void add_label(CLI::App& app, int& exit_code) {
-  auto* const verb = app.add_subcommand("label", "Say by hand what became of a kick, or list the unknown ones");
+  const auto [verb, arguments] =
+      add_verb(app, exit_code, "label", "Say by hand what became of a kick, or list the unknown ones", run_label);
   verb->footer(
       "Each label is a row of its own with who and when; nothing is changed or removed, and the observer's class "
       "stays\n"
@@ -128,7 +128,6 @@ void add_label(CLI::App& app, int& exit_code) {
       "is a page that steps through them with their replay and a video's time; it prints an address that holds the "
       "right\n"
       "to label, for this machine alone.");
-  const auto arguments = std::make_shared<LabelArguments>();
   verb->add_option("log", arguments->log, "Match log")->required();
   verb->add_option("kick", arguments->kick, "ROBOT:NUMBER as in trivela label LOG, its number alone, or its kick_id");
   verb->add_option("outcome", arguments->outcome, fmt::format("{}", fmt::join(log::kLabels, ", ")))
@@ -146,7 +145,6 @@ void add_label(CLI::App& app, int& exit_code) {
       ->check(readable_file())
       ->needs(serve)
       ->capture_default_str();
-  verb->callback([arguments, &exit_code] { exit_code = run_label(*arguments); });
 }
 
 }  // namespace trivela::cli

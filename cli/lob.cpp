@@ -76,19 +76,12 @@ void add_page_flags(CLI::App& verb, PageFlags& flags) {
                      ->excludes(live);
   verb.add_option("--record", flags.record, "page, live: record, must not exist; default: lobs-<date>.db here")
       ->excludes(replay);
-  verb.add_option("--listen", flags.listen, "page: ADDRESS[:PORT] to serve it on; 0.0.0.0 opens it to the network")
-      ->capture_default_str();
-  verb.add_option("--port", flags.port, "page: port, 0: any free one")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
+  add_default(verb, "--listen", flags.listen, "page: ADDRESS[:PORT] to serve it on; 0.0.0.0 opens it to the network");
+  add_default(verb, "--port", flags.port, "page: port, 0: any free one", CLI::Range(0, 65535));
   auto* plan = verb.add_option("--plan", flags.plan, "page: powers to calibrate, e.g. 15,20,...,50");
   verb.add_option("--robot", flags.robot, "page: powers of this robot file's table as the plan")->excludes(plan);
-  verb.add_option("--trials", flags.trials, "page: kicks of each power")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  verb.add_option("--config", flags.config, "page: settings whose run.match_mode refuses it")
-      ->check(readable_file())
-      ->capture_default_str();
+  add_default(verb, "--trials", flags.trials, "page: kicks of each power", CLI::Range(1, 1000));
+  add_default(verb, "--config", flags.config, "page: settings whose run.match_mode refuses it", readable_file());
 }
 
 /// Serves the page until Ctrl-C; returns the exit code. The mount is that of a live scanner; a record knows its own.

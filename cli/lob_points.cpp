@@ -149,10 +149,9 @@ void add_points_flags(CLI::App& verb, PointsFlags& flags) {
                   "kick, 90 upwards. Needs --laser-x-m and --laser-z-m")
       ->type_name("FILE");
   verb.add_flag("--json", flags.json, "with --points: JSON instead of text");
-  verb.add_option("--centre", flags.centre,
-                  "ball centre by a circle of known radius, or the paper's middle of the limits")
-      ->check(CLI::IsMember({"circle", "middle"}))
-      ->capture_default_str();
+  add_default(verb, "--centre", flags.centre,
+              "ball centre by a circle of known radius, or the paper's middle of the limits",
+              CLI::IsMember({"circle", "middle"}));
   verb.add_option("--cd", flags.cd, "drag coefficient, instead of fitting it")->check(CLI::Range(0.0, 10.0));
 }
 

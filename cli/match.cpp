@@ -213,12 +213,11 @@ void add_play_flags(CLI::App& verb, MatchFlags& flags) {
       ->needs(half);
   verb.add_option("--minutes", flags.minutes, "length of a half; default: the scenario's, referee.half_minutes")
       ->check(between(0.01, 1000.0));
-  verb.add_option("--seed", flags.seed, "same seed, same match")->check(seeds())->capture_default_str();
-  verb.add_option("--devices", flags.devices,
-                  "sim: on the bus, as fast as the nodes answer; emulated: the kicker's board (hal.kicker, "
-                  "else an ioBoard) at a line and a referee box on TCP, in real time")
-      ->check(CLI::IsMember({"sim", kEmulated}))
-      ->capture_default_str();
+  add_default(verb, "--seed", flags.seed, "same seed, same match", seeds());
+  add_default(verb, "--devices", flags.devices,
+              "sim: on the bus, as fast as the nodes answer; emulated: the kicker's board (hal.kicker, "
+              "else an ioBoard) at a line and a referee box on TCP, in real time",
+              CLI::IsMember({"sim", kEmulated}));
 }
 
 }  // namespace
@@ -229,12 +228,11 @@ void add_match(CLI::App& app, int& exit_code) {
   add_play_flags(*verb, *flags);
   verb->add_option("--domain", flags->domain, "DDS domain; default: drawn, with a discovery tag of its own")
       ->check(CLI::Range(0, 100));
-  verb->add_option("--out", flags->out, "match log, must not exist")->capture_default_str();
-  verb->add_option("--config", flags->config, "configuration of the nodes")->capture_default_str();
+  add_default(*verb, "--out", flags->out, "match log, must not exist");
+  add_default(*verb, "--config", flags->config, "configuration of the nodes");
   verb->add_option("--set", flags->overrides, "one setting on top, e.g. --set policy.settle_s=0.5");
-  verb->add_option("--log-level", flags->log_level, "of the nodes")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
-      ->capture_default_str();
+  add_default(*verb, "--log-level", flags->log_level, "of the nodes",
+              CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
   auto* secure =
       verb->add_option(
               "--secure", flags->keys,

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -87,8 +86,9 @@ int run_merge(const MergeArguments& arguments) try {
 }  // namespace
 
 void add_merge(CLI::App& app, int& exit_code) {
-  auto* const verb =
-      app.add_subcommand("merge", "Make one match log of those of a team's robots, or of an experiment's shards");
+  const auto [verb, arguments] =
+      add_verb(app, exit_code, "merge", "Make one match log of those of a team's robots, or of an experiment's shards",
+               run_merge);
   verb->footer(
       "Every session comes along once, row for row; verbs count each kick once. Times are aligned by the clock "
       "offsets\n"
@@ -98,14 +98,12 @@ void add_merge(CLI::App& app, int& exit_code) {
       "kick. Shards of an experiment (trivela simulate "
       "--shard)\n"
       "become the log that one run writes; a shard that lacks, is not finished or of another experiment is refused.");
-  const auto arguments = std::make_shared<MergeArguments>();
   verb->add_option("out", arguments->out, "The new log, must not exist")->required();
   verb->add_option("logs", arguments->logs, "Match logs, merged ones, too")->required();
   verb->add_option("--reference", arguments->reference_robot,
                    "Robot by whose clock times are aligned, 0: the base's; without: the one that most were measured "
                    "against")
       ->check(CLI::Range(0, 255));
-  verb->callback([arguments, &exit_code] { exit_code = run_merge(*arguments); });
 }
 
 }  // namespace trivela::cli

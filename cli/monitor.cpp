@@ -1,5 +1,4 @@
 
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -50,14 +49,12 @@ int serve_monitor(const MonitorFlags& flags) {
 }  // namespace
 
 void add_monitor(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("monitor", "Serve a live page of a match: field, decisions, kicks, alarms");
-  auto flags = std::make_shared<MonitorFlags>();
+  const auto [verb, flags] = add_verb(app, exit_code, "monitor",
+                                      "Serve a live page of a match: field, decisions, kicks, alarms", serve_monitor);
   verb->footer(
       "It listens and writes nothing on the bus, and the page answers no request but GET: nothing of it can order "
       "anything.\nPrints the page's address and serves it until Ctrl-C.");
-  verb->add_option("--config", flags->config, "whose [domain], field and rules are looked at")
-      ->check(readable_file())
-      ->capture_default_str();
+  add_default(*verb, "--config", flags->config, "whose [domain], field and rules are looked at", readable_file());
   verb->add_option("--domain", flags->domain, "DDS domain instead of the configuration's")->check(CLI::Range(0, 100));
   verb->add_option("--tag", flags->tag, "discovery tag instead of the configuration's");
   verb->add_option(
@@ -69,7 +66,6 @@ void add_monitor(CLI::App& app, int& exit_code) {
   verb->add_option("--secure", flags->keys, "folder of the team's keys with a monitor's in robot_N (trivela keys)")
       ->envname(nodes::kKeysVariable);
   add_watch_flags(*verb, flags->watch);
-  verb->callback([flags, &exit_code] { exit_code = serve_monitor(*flags); });
 }
 
 }  // namespace trivela::cli

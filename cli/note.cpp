@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -93,16 +92,22 @@ int add_notes(const NoteArguments& arguments, std::vector<log::Note> notes) {
   return kDone;
 }
 
+int run_note(const NoteArguments& arguments) {
+  auto notes = said(arguments);
+  if (notes.empty() && !arguments.who.empty()) throw UsageError{"say what is to be noted"};
+  if (!notes.empty() && arguments.who.empty()) throw UsageError{"--by WHO: who says so?"};
+  return notes.empty() ? list_notes(arguments) : add_notes(arguments, std::move(notes));
+}
+
 }  // namespace
 
 void add_note(CLI::App& app, int& exit_code) {
-  auto* const verb =
-      app.add_subcommand("note", "Say in a log which match it is, against whom, where, and what to know");
+  const auto [verb, arguments] = add_verb(
+      app, exit_code, "note", "Say in a log which match it is, against whom, where, and what to know", run_note);
   verb->footer(
       "Each is a row of its own with who and when; nothing is changed or removed. Of match, opponent and venue the\n"
       "latest holds, notes stand beside each other; the report shows what holds. Without anything to say: what was "
       "said.");
-  const auto arguments = std::make_shared<NoteArguments>();
   verb->add_option("log", arguments->log, "Match log")->required();
   verb->add_option("text", arguments->text, "A note, in quotes");
   verb->add_option("--match", arguments->match, "Which match it is, such as \"semi-final\"");
@@ -113,12 +118,6 @@ void add_note(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(std::vector<std::string>(log::kNoteKinds.begin(), log::kNoteKinds.end())));
   verb->add_option("--by", arguments->who, "Who says so");
   verb->add_option("--session", arguments->session, "How the uuid of the session begins; default: all of the log");
-  verb->callback([arguments, &exit_code] {
-    auto notes = said(*arguments);
-    if (notes.empty() && !arguments->who.empty()) throw UsageError{"say what is to be noted"};
-    if (!notes.empty() && arguments->who.empty()) throw UsageError{"--by WHO: who says so?"};
-    exit_code = notes.empty() ? list_notes(*arguments) : add_notes(*arguments, std::move(notes));
-  });
 }
 
 }  // namespace trivela::cli

@@ -2,7 +2,6 @@
 
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -113,14 +112,30 @@ void print_metrics() {
   }
 }
 
+int run_query(const QueryArguments& arguments) {
+  if (arguments.list) {
+    print_metrics();
+    return kDone;
+  }
+  if (arguments.log.empty()) throw UsageError{"give a match log, or --list"};
+  log::Reader reader(arguments.log);
+  try {
+    print_rows(reader, arguments);
+  } catch (const log::BadQuestion& bad) {
+    throw UsageError{fmt::format("cannot ask that: {}", bad.what())};
+  }
+  for (const std::string& warning : reader.warnings()) warn(warning);
+  return kDone;
+}
+
 }  // namespace
 
 void add_query(CLI::App& app, int& exit_code) {
-  auto* const verb = app.add_subcommand("query", "Ask a match log: a metric by its name, or one SELECT of your own");
+  const auto [verb, arguments] =
+      add_verb(app, exit_code, "query", "Ask a match log: a metric by its name, or one SELECT of your own", run_query);
   verb->footer(
       "Tables and columns are those of log/schema/schema.sql; view\n"
       "counted_kicks has each kick once. The log is only read.");
-  const auto arguments = std::make_shared<QueryArguments>();
   auto* const log = verb->add_option("log", arguments->log, "Match log, such as out/match.db");
   verb->add_option("sql", arguments->sql, "One SELECT, in quotes");
   verb->add_option("--metric", arguments->metric, "A question of --list by its name");
@@ -128,18 +143,6 @@ void add_query(CLI::App& app, int& exit_code) {
   auto* const csv = verb->add_flag("--csv", arguments->csv, "CSV instead of a table of text");
   verb->add_flag("--json", arguments->json, "JSON instead of a table of text")->excludes(csv);
   verb->add_flag("--list", arguments->list, "What the metrics are, with their columns")->excludes(log);
-  verb->callback([arguments, &exit_code] {
-    exit_code = kDone;
-    if (arguments->list) return print_metrics();
-    if (arguments->log.empty()) throw UsageError{"give a match log, or --list"};
-    log::Reader reader(arguments->log);
-    try {
-      print_rows(reader, *arguments);
-    } catch (const log::BadQuestion& bad) {
-      throw UsageError{fmt::format("cannot ask that: {}", bad.what())};
-    }
-    for (const std::string& warning : reader.warnings()) warn(warning);
-  });
 }
 
 }  // namespace trivela::cli

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -270,21 +269,20 @@ int replay(const ReplayFlags& flags) {
 }  // namespace
 
 void add_replay(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("replay", "Decide a recorded match again, with other settings or another robot file");
+  const auto [verb, flags] = add_verb(
+      app, exit_code, "replay", "Decide a recorded match again, with other settings or another robot file", replay);
   verb->footer(
       "The recorded wheel samples, camera frames, commands of the referee and states of the kicker go at their "
       "recorded\n"
       "instants through the robot's logic, in this process: open loop, since nothing that it orders happens. It says\n"
       "first how far the log's own settings give the recorded decisions again, then what it orders beside what was\n"
       "ordered. `trivela report LOG OUT --html PAGE` shows both.");
-  auto flags = std::make_shared<ReplayFlags>();
   verb->add_option("log", flags->log, "match log of a recorder, of a robot or in lockstep")->required();
-  verb->add_option("--out", flags->out, "log of the replay, must not exist")->capture_default_str();
+  add_default(*verb, "--out", flags->out, "log of the replay, must not exist");
   verb->add_option("--session", flags->session, "how the uuid of the session begins, where the log has several");
   verb->add_option("--config", flags->config, "settings in place of the log's")->type_name("FILE");
   verb->add_option("--robot", flags->robot, "robot file in place of the log's")->type_name("FILE");
   verb->add_option("--set", flags->overrides, "one setting on top, e.g. 'kick_decision.policy_by_half=[\"moving\"]'");
-  verb->callback([flags, &exit_code] { exit_code = replay(*flags); });
 }
 
 }  // namespace trivela::cli

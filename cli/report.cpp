@@ -69,11 +69,31 @@ void warn_of(const evaluator::Report& report) {
   if (report.doubt) warn(*report.doubt);
 }
 
+void write_page(const evaluator::Report& report, const ReportArguments& arguments) {
+  ProgressBar bar;
+  const auto progress = [&bar](std::size_t done, std::size_t parts, const std::string& what) {
+    bar.show(static_cast<double>(done), static_cast<double>(parts), "page: " + what);
+  };
+  write_file(arguments.html,
+             evaluator::page::report_page(report, {arguments.logs.begin(), arguments.logs.end()}, progress));
+}
+
+int run_report(const ReportArguments& arguments) {
+  const evaluator::Report report = report_of(arguments);
+  if (!arguments.html.empty()) write_page(report, arguments);
+  const std::string text = written(report, arguments);
+  arguments.out.empty() ? say(text) : write_file(arguments.out, text);
+  const bool plain = !arguments.json && !arguments.csv && !arguments.markdown && !arguments.latex;
+  if (!plain || !arguments.out.empty()) warn_of(report);
+  const bool met = warn_of_gates(report.gates);
+  return report.data_lost() || !met ? kDoneWithLoss : kDone;
+}
+
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
-  auto* const verb = app.add_subcommand("report", "Table 2 of match logs, why kicks missed, and data quality");
-  const auto arguments = std::make_shared<ReportArguments>();
+  const auto [verb, arguments] =
+      add_verb(app, exit_code, "report", "Table 2 of match logs, why kicks missed, and data quality", run_report);
   verb->add_option("logs", arguments->logs, "Match logs, such as out/match.db; each of their kicks counts once")
       ->type_name("DB")
       ->required();
@@ -94,23 +114,6 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_option("--html", arguments->html,
                    "Write a page with figures, the list of kicks and their replays to this file as well: one file that "
                    "needs nothing else");
-  verb->callback([arguments, &exit_code] {
-    const evaluator::Report report = report_of(*arguments);
-    if (!arguments->html.empty()) {
-      ProgressBar bar;
-      const auto progress = [&bar](std::size_t done, std::size_t parts, const std::string& what) {
-        bar.show(static_cast<double>(done), static_cast<double>(parts), "page: " + what);
-      };
-      write_file(arguments->html,
-                 evaluator::page::report_page(report, {arguments->logs.begin(), arguments->logs.end()}, progress));
-    }
-    const std::string text = written(report, *arguments);
-    arguments->out.empty() ? say(text) : write_file(arguments->out, text);
-    const bool plain = !arguments->json && !arguments->csv && !arguments->markdown && !arguments->latex;
-    if (!plain || !arguments->out.empty()) warn_of(report);
-    const bool met = warn_of_gates(report.gates);
-    exit_code = report.data_lost() || !met ? kDoneWithLoss : kDone;
-  });
 }
 
 }  // namespace trivela::cli

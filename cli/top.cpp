@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -116,18 +115,15 @@ int show_bus(const TopFlags& flags) {
 }  // namespace
 
 void add_top(CLI::App& app, int& exit_code) {
-  auto* verb =
-      app.add_subcommand("top", "Show the bus live: rates, latencies, losses, who writes what, what nodes take");
-  auto flags = std::make_shared<TopFlags>();
+  const auto [verb, flags] = add_verb(
+      app, exit_code, "top", "Show the bus live: rates, latencies, losses, who writes what, what nodes take", show_bus);
   verb->footer(
       "Listens and says nothing: no node waits for it. On a terminal it is drawn over until Ctrl-C, in a pipe there is "
       "a\n"
       "table, or a line of JSON, each interval. Latency is from the writer's source timestamp to reception, age from "
       "the\n"
       "message's t_ns; late counts three periods without a sample.");
-  verb->add_option("--config", flags->config, "whose [domain] is looked at")
-      ->check(readable_file())
-      ->capture_default_str();
+  add_default(*verb, "--config", flags->config, "whose [domain] is looked at", readable_file());
   verb->add_option("--domain", flags->domain, "DDS domain instead of the configuration's")->check(CLI::Range(0, 100));
   verb->add_option("--tag", flags->tag, "discovery tag instead of the configuration's");
   verb->add_option(
@@ -144,10 +140,7 @@ void add_top(CLI::App& app, int& exit_code) {
   verb->add_option("--robot", flags->robot, "this robot's samples and writers only")->check(CLI::Range(1, 255));
   verb->add_flag("--once", flags->once, "show one interval and end");
   verb->add_flag("--json", flags->json, "JSON, a line an interval");
-  verb->add_option("--interval", flags->interval_s, "seconds between two looks")
-      ->check(between(0.1, 3600.0))
-      ->capture_default_str();
-  verb->callback([flags, &exit_code] { exit_code = show_bus(*flags); });
+  add_default(*verb, "--interval", flags->interval_s, "seconds between two looks", between(0.1, 3600.0));
 }
 
 }  // namespace trivela::cli

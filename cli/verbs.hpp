@@ -1,6 +1,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
 
 #include "config/text/error.hpp"
 
@@ -14,35 +16,39 @@ struct UsageError : config::BadArgument {
   using config::BadArgument::BadArgument;
 };
 
-/// Each adds its subcommand with flags, help and a callback that sets `exit_code`.
-void add_match(CLI::App& app, int& exit_code);
-void add_replay(CLI::App& app, int& exit_code);
-void add_scan(CLI::App& app, int& exit_code);
-void add_top(CLI::App& app, int& exit_code);
-void add_monitor(CLI::App& app, int& exit_code);
-void add_doctor(CLI::App& app, int& exit_code);
-void add_hardware(CLI::App& app, int& exit_code);
-void add_keys(CLI::App& app, int& exit_code);
-void add_lob(CLI::App& app, int& exit_code);
-void add_calibrate(CLI::App& app, int& exit_code);
-void add_report(CLI::App& app, int& exit_code);
-void add_import(CLI::App& app, int& exit_code);
-void add_collect(CLI::App& app, int& exit_code);
-void add_merge(CLI::App& app, int& exit_code);
-void add_label(CLI::App& app, int& exit_code);
-void add_note(CLI::App& app, int& exit_code);
-void add_query(CLI::App& app, int& exit_code);
-void add_export(CLI::App& app, int& exit_code);
-void add_drift(CLI::App& app, int& exit_code);
-void add_compare(CLI::App& app, int& exit_code);
-void add_study(CLI::App& app, int& exit_code);
-void add_simulate(CLI::App& app, int& exit_code);
-void add_solve(CLI::App& app, int& exit_code);
-void add_align(CLI::App& app, int& exit_code);
-void add_predict(CLI::App& app, int& exit_code);
-void add_team(CLI::App& app, int& exit_code);
+/// Adds an option whose help shows its default. Throws what `check` says of other values.
+template <class T>
+CLI::Option* add_default(CLI::App& verb, const std::string& flag, T& value, const std::string& help,
+                         const CLI::Validator& check = {}) {
+  return verb.add_option(flag, value, help)->check(check)->capture_default_str();
+}
+
+/// A subcommand, and what its flags are read into.
+template <class Flags>
+struct Verb {
+  CLI::App* verb;
+  std::shared_ptr<Flags> flags;
+};
+
+/// Adds a subcommand that ends with the exit code of `run`, which gets its flags.
+template <class Flags>
+Verb<Flags> add_verb(CLI::App& app, int& exit_code, const std::string& name, const std::string& help,
+                     int (*run)(const Flags&)) {
+  Verb<Flags> added{app.add_subcommand(name, help), std::make_shared<Flags>()};
+  added.verb->callback([flags = added.flags, run, &exit_code] { exit_code = run(*flags); });
+  return added;
+}
+
+/// Adds its subcommand with flags, help and a callback that sets `exit_code`.
+using AddVerb = void(CLI::App& app, int& exit_code);
+AddVerb add_match, add_simulate, add_replay;
+AddVerb add_scan, add_lob, add_calibrate;
+AddVerb add_compare, add_study, add_report, add_drift, add_query;
+AddVerb add_collect, add_merge, add_export, add_import, add_label, add_note;
+AddVerb add_team, add_top, add_monitor, add_doctor, add_hardware, add_keys;
+AddVerb add_solve, add_align, add_predict;
 
 /// Of `trivela import`, beside the referee box's logs: what somebody labelled by hand.
-void add_import_kicks(CLI::App& import, int& exit_code);
+AddVerb add_import_kicks;
 
 }  // namespace trivela::cli

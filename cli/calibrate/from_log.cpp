@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <memory>
 
 #include "calibration/rows/kick_flights.hpp"
 #include "cli/calibrate/fit_flags.hpp"
@@ -57,7 +56,7 @@ Json to_json(const kicking::KickerEstimate& estimate, const calibration::LoggedF
           {"simulated", seen.simulated}};
 }
 
-ExitCode calibrate_from_log(const FromLogFlags& flags) {
+int calibrate_from_log(const FromLogFlags& flags) {
   const auto target = robot_target(flags.robot, flags.out);
   require_writable("the robot's file", target);
   const config::Settings settings = config::load_settings(flags.config);
@@ -97,26 +96,22 @@ ExitCode calibrate_from_log(const FromLogFlags& flags) {
 }  // namespace
 
 void add_calibrate_from_log(CLI::App& calibrate, int& exit_code) {
-  auto* verb = calibrate.add_subcommand("from-log", "A robot's file from its kicks in matches");
-  const auto flags = std::make_shared<FromLogFlags>();
+  const auto [verb, flags] =
+      add_verb(calibrate, exit_code, "from-log", "A robot's file from its kicks in matches", calibrate_from_log);
   verb->footer(
       "Each kick whose flight a goal camera saw says something of exit speed, angle, direction, delay and transfer. "
       "The\n"
       "robot's file that is there, or --base, is what they are held against: the file that the robot played with.");
   verb->add_option("log", flags->logs, "Match logs")->required()->type_name("LOG");
   verb->add_option("--robot", flags->robot, "Name of the robot")->required();
-  verb->add_option("--robot-id", flags->robot_id, "Its number in the logs")
-      ->check(CLI::Range(1, 255))
-      ->capture_default_str();
+  add_default(*verb, "--robot-id", flags->robot_id, "Its number in the logs", CLI::Range(1, 255));
   verb->add_option("--base", flags->base, "Robot that a new file starts from; default cambada_1")
       ->type_name("NAME|FILE");
   verb->add_option("--out", flags->out,
                    "Robot's file; default config/robots/NAME.toml, or NAME.toml without that folder")
       ->type_name("FILE");
-  verb->add_option("--config", flags->config, "Settings, of which [self_calibration.change] counts")
-      ->capture_default_str();
+  add_default(*verb, "--config", flags->config, "Settings, of which [self_calibration.change] counts");
   verb->add_flag("--json", flags->json, "JSON instead of text");
-  verb->callback([flags, &exit_code] { exit_code = calibrate_from_log(*flags); });
 }
 
 }  // namespace trivela::cli

@@ -133,26 +133,30 @@ std::vector<std::vector<std::string>> lines_of(const std::vector<Repeatability>&
   return lines;
 }
 
-void plot(const PlotFlags& flags) {
+int plot(const PlotFlags& flags) {
   require_writable("--out", flags.out);
   const calibration::Trials trials = calibration::read_trials(flags.inputs, trial_flags(flags.columns));
   const TrialsByPower powers = by_power(trials.trials);
   write_file(flags.out, evaluator::to_svg(chart_of(powers, trials.simulated)));
   const std::vector<Repeatability> rows = repeatability(powers);
-  if (flags.json) return print_json(rows, flags, trials.warnings);
+  if (flags.json) {
+    print_json(rows, flags, trials.warnings);
+    return kDone;
+  }
   if (flags.csv) {
     for (const auto& line : lines_of(rows, "{:.6g}", "")) fmt::print("{}\n", fmt::join(line, ","));
   } else {
     fmt::print("{}\nWritten: {}\n", evaluator::text_table(lines_of(rows, "{:.3f}", "-")), flags.out);
   }
   for (const std::string& warning : trials.warnings) warn(warning);
+  return kDone;
 }
 
 }  // namespace
 
 void add_calibrate_plot(CLI::App& calibrate, int& exit_code) {
-  auto* verb = calibrate.add_subcommand("plot", "parabolas of all powers and trials (Figure 5), and their spread");
-  const auto flags = std::make_shared<PlotFlags>();
+  const auto [verb, flags] =
+      add_verb(calibrate, exit_code, "plot", "parabolas of all powers and trials (Figure 5), and their spread", plot);
   verb->footer(
       "INPUT as of `calibrate table`: scan records or tables of power, height_m, distance_m. Prints mean and standard\n"
       "deviation of exit speed, exit angle, range and height for each power: the kicker's repeatability.");
@@ -161,10 +165,6 @@ void add_calibrate_plot(CLI::App& calibrate, int& exit_code) {
   verb->add_option("--columns", flags->columns, "Names of the table's columns in order, - skips one");
   auto* json = verb->add_flag("--json", flags->json, "Numbers as JSON");
   verb->add_flag("--csv", flags->csv, "Numbers as CSV")->excludes(json);
-  verb->callback([flags, &exit_code] {
-    plot(*flags);
-    exit_code = kDone;
-  });
 }
 
 }  // namespace trivela::cli

@@ -135,21 +135,22 @@ void print_repeats(const RepeatReport& report, const RepeatFlags& flags) {
       flags.matches, 100.0 * least, 100.0 * most, 100.0 * spread.mean, 100.0 * spread.sd);
 }
 
-void repeat_study(const RepeatFlags& flags) {
+int repeat_study(const RepeatFlags& flags) {
   const RepeatReport report = play_study(flags);
   if (flags.json) {
     fmt::print("{}", evaluator::json_text(json_of_repeats(report, flags)));
   } else {
     print_repeats(report, flags);
   }
+  return kDone;
 }
 
 }  // namespace
 
 void add_calibrate_repeat(CLI::App& calibrate_verb, int& exit_code) {
-  auto* verb =
-      calibrate_verb.add_subcommand("repeat", "how sure one calibration is: many of them, beside the world's truth");
-  auto flags = std::make_shared<RepeatFlags>();
+  const auto [verb, flags] =
+      add_verb(calibrate_verb, exit_code, "repeat",
+               "how sure one calibration is: many of them, beside the world's truth", repeat_study);
   verb->footer(
       "Plays calibrations of `trivela calibrate run --in simulation` in process, one a seed, and compares their "
       "figures "
@@ -157,27 +158,16 @@ void add_calibrate_repeat(CLI::App& calibrate_verb, int& exit_code) {
       "the simulated world's: error, standard error, share of the 95 % intervals that contain the truth; and how much "
       "the\n"
       "policy moving differs between the robots. No fit sees the world's truth.");
-  verb->add_option("--count", flags->count, "calibrations")->check(CLI::Range(2, 10000))->capture_default_str();
-  verb->add_option("--seed", flags->seed, "of the first; the next ones follow")
-      ->check(CLI::Range(0, 900000))
-      ->capture_default_str();
-  verb->add_option("--scenario", flags->world, "the world of the matches")->capture_default_str();
+  add_default(*verb, "--count", flags->count, "calibrations", CLI::Range(2, 10000));
+  add_default(*verb, "--seed", flags->seed, "of the first; the next ones follow", CLI::Range(0, 900000));
+  add_default(*verb, "--scenario", flags->world, "the world of the matches");
   verb->add_option("--out-dir", flags->out_dir, "writes the robots there");
-  verb->add_option("--matches", flags->matches, "of 20 possessions with each robot; 0: none")
-      ->check(CLI::Range(0, 100000))
-      ->capture_default_str();
-  verb->add_option("--matches-seed", flags->matches_seed, "of the matches")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  verb->add_option("--jobs", flags->jobs, "threads")->check(CLI::Range(1, 256))->capture_default_str();
-  verb->add_option("--drive-kicks", flags->effort.drive_kicks, "lateral and straight kicks with each velocity")
-      ->check(CLI::Range(1, 200))
-      ->capture_default_str();
+  add_default(*verb, "--matches", flags->matches, "of 20 possessions with each robot; 0: none", CLI::Range(0, 100000));
+  add_default(*verb, "--matches-seed", flags->matches_seed, "of the matches", CLI::Range(0, 1000000));
+  add_default(*verb, "--jobs", flags->jobs, "threads", CLI::Range(1, 256));
+  add_default(*verb, "--drive-kicks", flags->effort.drive_kicks, "lateral and straight kicks with each velocity",
+              CLI::Range(1, 200));
   verb->add_flag("--json", flags->json, "as JSON");
-  verb->callback([flags, &exit_code] {
-    repeat_study(*flags);
-    exit_code = kDone;
-  });
 }
 
 }  // namespace trivela::cli

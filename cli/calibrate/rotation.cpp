@@ -165,16 +165,13 @@ void add_calibrate_rotation(CLI::App& calibrate, int& exit_code) {
       "error with which the ball hits the centre, positive on the right when turning counter-clockwise and on the "
       "left\n"
       "when turning clockwise; or a match log with turn drives.");
-  verb->add_option("--distance-m", flags->distance_m, "Robot to target, where the table has no d_m")
-      ->check(above_zero())
-      ->capture_default_str();
+  add_default(*verb, "--distance-m", flags->distance_m, "Robot to target, where the table has no d_m", above_zero());
   verb->add_option("--v-h-mps", flags->v_h_mps, "Horizontal speed of the ball, to tell delay and lever apart")
       ->check(above_zero());
   verb->add_option("--ball-offset-m", flags->ball_offset_m, "Robot's centre to ball; default the robot's")
       ->check(CLI::Range(0.0, 0.6));
-  verb->add_option("--cycle-s", flags->cycle_s, "Control cycle: the order is half of it late on average")
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
+  add_default(*verb, "--cycle-s", flags->cycle_s, "Control cycle: the order is half of it late on average",
+              CLI::Range(0.0, 0.5));
   verb->add_option("--plot", flags->plot, "Figure 10 as SVG")->type_name("FILE");
 }
 

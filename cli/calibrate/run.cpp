@@ -130,48 +130,46 @@ int calibrate_in_simulation(const RunFlags& flags) {
   return passes_gate(observed) ? kDone : kDoneWithLoss;
 }
 
+int calibrate(const RunFlags& flags) {
+  return flags.in == "field" ? calibrate_in_field(flags) : calibrate_in_simulation(flags);
+}
+
 void add_place_options(CLI::App& verb, RunFlags& flags) {
   verb.add_option("--in", flags.in, "simulation, or field: on a robot, asking a person for each step")
       ->required()
       ->check(CLI::IsMember({"simulation", "field"}));
-  verb.add_option("--robot", flags.robot, "name of the calibrated robot")->capture_default_str();
-  verb.add_option("--seed", flags.seed, "same seed, same drives")->check(CLI::Range(0, 1000000))->capture_default_str();
-  verb.add_option("--out-dir", flags.out_dir, "folder of the records")->capture_default_str();
+  add_default(verb, "--robot", flags.robot, "name of the calibrated robot");
+  add_default(verb, "--seed", flags.seed, "same seed, same drives", CLI::Range(0, 1000000));
+  add_default(verb, "--out-dir", flags.out_dir, "folder of the records");
   verb.add_option("--out", flags.out, "the robot's file; default NAME.toml in --out-dir");
 }
 
 void add_drive_options(CLI::App& verb, RunFlags& flags) {
-  verb.add_option("--start", flags.start, "the robot's file to start from")->capture_default_str();
-  verb.add_option("--scenario", flags.scenario, "world of the drives")->capture_default_str();
-  verb.add_option("--check-scenario", flags.check, "world of the check")->capture_default_str();
+  add_default(verb, "--start", flags.start, "the robot's file to start from");
+  add_default(verb, "--scenario", flags.scenario, "world of the drives");
+  add_default(verb, "--check-scenario", flags.check, "world of the check");
   verb.add_option("--team", flags.team,
                   "scenario of the matches: the drives have a kicker as fast as one of its robots")
       ->check(readable_file());
-  verb.add_option("--number", flags.number, "which robot of the team")->check(CLI::Range(1, 5))->capture_default_str();
-  verb.add_option("--config", flags.config, "configuration of the nodes")->capture_default_str();
+  add_default(verb, "--number", flags.number, "which robot of the team", CLI::Range(1, 5));
+  add_default(verb, "--config", flags.config, "configuration of the nodes");
   verb.add_option("--set", flags.overrides, "field: one setting on top, e.g. --set 'hal.kicker=\"ioboard\"'");
 }
 
 void add_effort_options(CLI::App& verb, calibration::CalibrationEffort& effort) {
-  verb.add_option("--kicks", effort.kicks, "standing kicks with each set-point, a round")
-      ->check(CLI::Range(2, 200))
-      ->capture_default_str();
-  verb.add_option("--lobs", effort.lobs, "accepted lobs that each set-point shall have")
-      ->check(CLI::Range(2, 100))
-      ->capture_default_str();
-  verb.add_option("--drive-kicks", effort.drive_kicks, "lateral and straight kicks with each velocity")
-      ->check(CLI::Range(1, 200))
-      ->capture_default_str();
-  verb.add_option("--turn-kicks", effort.turn_kicks, "kicks with each step of the turn drive's bisection")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
+  add_default(verb, "--kicks", effort.kicks, "standing kicks with each set-point, a round", CLI::Range(2, 200));
+  add_default(verb, "--lobs", effort.lobs, "accepted lobs that each set-point shall have", CLI::Range(2, 100));
+  add_default(verb, "--drive-kicks", effort.drive_kicks, "lateral and straight kicks with each velocity",
+              CLI::Range(1, 200));
+  add_default(verb, "--turn-kicks", effort.turn_kicks, "kicks with each step of the turn drive's bisection",
+              CLI::Range(1, 100));
 }
 
 }  // namespace
 
 void add_calibrate_run(CLI::App& calibrate_verb, int& exit_code) {
-  auto* verb = calibrate_verb.add_subcommand("run", "all test drives, from an uncalibrated robot to its file");
-  auto flags = std::make_shared<RunFlags>();
+  const auto [verb, flags] =
+      add_verb(calibrate_verb, exit_code, "run", "all test drives, from an uncalibrated robot to its file", calibrate);
   verb->footer(
       "Plays the drives through the real nodes: standing kicks over the laser (table, exit angle, delay, spreads), "
       "lateral\n"
@@ -182,16 +180,12 @@ void add_calibrate_run(CLI::App& calibrate_verb, int& exit_code) {
   add_place_options(*verb, *flags);
   add_drive_options(*verb, *flags);
   add_effort_options(*verb, flags->effort);
-  verb->add_option("--log-level", flags->log_level, "of the nodes")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
-      ->capture_default_str();
+  add_default(*verb, "--log-level", flags->log_level, "of the nodes",
+              CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
   verb->add_flag("--rehearse", flags->rehearse, "field: the same questions, played in the world of --scenario");
   verb->add_flag("--in-process", flags->in_process,
                  "without bus, nodes and records: the same robot in seconds; nothing but its file is written");
   verb->add_flag("--json", flags->json, "report as JSON on standard output");
-  verb->callback([flags, &exit_code] {
-    exit_code = flags->in == "field" ? calibrate_in_field(*flags) : calibrate_in_simulation(*flags);
-  });
 }
 
 }  // namespace trivela::cli

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "calibration/rows/trials.hpp"
 #include "cli/calibrate/fit_flags.hpp"
@@ -90,7 +89,7 @@ std::vector<std::string> not_rising(const kicking::TableFit& fit) {
   return sentences;
 }
 
-ExitCode calibrate_table(const TableFlags& flags) {
+int calibrate_table(const TableFlags& flags) {
   const auto target = robot_target(flags.robot, flags.out);
   require_writable("the robot's file", target);
   const calibration::TableChoice choice{
@@ -132,8 +131,8 @@ ExitCode calibrate_table(const TableFlags& flags) {
 }  // namespace
 
 void add_calibrate_table(CLI::App& calibrate, int& exit_code) {
-  auto* verb = calibrate.add_subcommand("table", "kick table and exit angle from lobs or measured tables");
-  const auto flags = std::make_shared<TableFlags>();
+  const auto [verb, flags] = add_verb(calibrate, exit_code, "table",
+                                      "kick table and exit angle from lobs or measured tables", calibrate_table);
   verb->footer(
       "INPUT: scan records, or tables (CSV, or columns apart by blanks; # comments) with the columns power, height_m,\n"
       "distance_m, or power, exit_speed_mps[, exit_angle_deg]. Heights and distances are of the ball's centre "
@@ -147,12 +146,10 @@ void add_calibrate_table(CLI::App& calibrate, int& exit_code) {
       ->type_name("FILE");
   verb->add_option("--base", flags->start, "Robot that a new file takes everything else from; default cambada_1")
       ->type_name("NAME|FILE");
-  verb->add_option("--angle", flags->angle, "mean: one exit angle, as the paper; per-setpoint: one for each power")
-      ->check(CLI::IsMember({"mean", "per-setpoint"}))
-      ->capture_default_str();
-  verb->add_option("--kind", flags->kind, "effective: drag-free parabolas; true: fitted with drag, not for policies")
-      ->check(CLI::IsMember({"effective", "true"}))
-      ->capture_default_str();
+  add_default(*verb, "--angle", flags->angle, "mean: one exit angle, as the paper; per-setpoint: one for each power",
+              CLI::IsMember({"mean", "per-setpoint"}));
+  add_default(*verb, "--kind", flags->kind, "effective: drag-free parabolas; true: fitted with drag, not for policies",
+              CLI::IsMember({"effective", "true"}));
   verb->add_option("--exit-angle-deg", flags->exit_angle_deg, "Angle of exit speeds that come without one")
       ->check(CLI::Range(5.0, 80.0));
   verb->add_option("--least-angle-power", flags->options.least_angle_power,
@@ -161,7 +158,6 @@ void add_calibrate_table(CLI::App& calibrate, int& exit_code) {
   verb->add_option("--columns", flags->columns,
                    "Names of the columns in order, - skips one: -,power,height_m,distance_m");
   verb->add_flag("--json", flags->json, "JSON instead of text");
-  verb->callback([flags, &exit_code] { exit_code = calibrate_table(*flags); });
 }
 
 }  // namespace trivela::cli

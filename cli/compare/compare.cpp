@@ -3,7 +3,6 @@
 #include <charconv>
 #include <fstream>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -101,17 +100,17 @@ evaluator::PolicyComparison compared(const CompareArguments& arguments) try {
 
 void write_out(const std::string& out, const std::string& text) { out.empty() ? say(text) : write_file(out, text); }
 
-// Writes it, then says whether its gates are met.
-bool write_comparison(const CompareArguments& arguments, auto comparison, std::span<const evaluator::Gate> gates) {
+// Writes it, then judges its gates.
+int write_comparison(const CompareArguments& arguments, auto comparison, std::span<const evaluator::Gate> gates) {
   comparison.gates = evaluator::judge_gates(comparison, gates);
   const std::string text = arguments.json  ? evaluator::to_json(comparison)
                            : arguments.all ? evaluator::to_text(comparison)
                                            : evaluator::to_short_text(comparison);
   write_out(arguments.out, text);
-  return warn_of_gates(comparison.gates);
+  return warn_of_gates(comparison.gates) ? kDone : kDoneWithLoss;
 }
 
-bool run_comparison(const CompareArguments& arguments) {
+int run_comparison(const CompareArguments& arguments) {
   check(arguments);
   const auto gates = parse_gates(arguments.gates, evaluator::comparison_gate_metrics());
   require_writable("--out", arguments.out);
@@ -131,9 +130,9 @@ std::optional<std::int64_t> whole_number(std::string_view text) {
 }  // namespace
 
 void add_compare(CLI::App& app, int& exit_code) {
-  auto* const verb =
-      app.add_subcommand("compare", "Compare policies, height tables, robots, arms or logs: how much, how sure, why");
-  const auto arguments = std::make_shared<CompareArguments>();
+  const auto [verb, arguments] =
+      add_verb(app, exit_code, "compare",
+               "Compare policies, height tables, robots, arms or logs: how much, how sure, why", run_comparison);
   verb->add_option("logs", arguments->logs, "Match logs, such as out/match.db; their sessions are taken together")
       ->type_name("DB");
   verb->add_option("--csv", arguments->csv,
@@ -168,7 +167,6 @@ void add_compare(CLI::App& app, int& exit_code) {
       "Examples: trivela compare ab.db --outcome truth\n"
       "          trivela compare --csv kicks.csv --stratify distance\n"
       "          trivela compare --counts old=34/65 new=100/132    (the paper's Table 2)");
-  verb->callback([arguments, &exit_code] { exit_code = run_comparison(*arguments) ? kDone : kDoneWithLoss; });
 }
 
 evaluator::NamedCounts parse_counts(const std::string& argument) {

@@ -186,17 +186,23 @@ class DrivesShow {
   bool turns_ = false;
 };
 
-int emulate_cia402(const std::vector<std::string>& named, int count) {
+struct DrivesFlags {
+  std::vector<std::string> faults;
+  int drives = 3;
+};
+
+int emulate_cia402(const DrivesFlags& flags) {
   DriveFaults faults;
-  take_faults(named, {{"bus_off", &faults.bus_off_s},
-                      {"overcurrent", &faults.overcurrent_s},
-                      {"silent", &faults.silent_s},
-                      {"refuses_1016", &faults.refuses_heartbeat},
-                      {"unplug", &faults.unplug_s}});
-  if (faults.refuses_heartbeat > count)
-    throw UsageError{fmt::format("--faults refuses_1016={}: there are {} drives", faults.refuses_heartbeat, count)};
+  take_faults(flags.faults, {{"bus_off", &faults.bus_off_s},
+                             {"overcurrent", &faults.overcurrent_s},
+                             {"silent", &faults.silent_s},
+                             {"refuses_1016", &faults.refuses_heartbeat},
+                             {"unplug", &faults.unplug_s}});
+  if (faults.refuses_heartbeat > flags.drives)
+    throw UsageError{
+        fmt::format("--faults refuses_1016={}: there are {} drives", faults.refuses_heartbeat, flags.drives)};
   SignalInbox signals;
-  hal::cia402::Emulator emulator{static_cast<std::uint8_t>(count)};
+  hal::cia402::Emulator emulator{static_cast<std::uint8_t>(flags.drives)};
   emulator.with_board([&](hal::cia402::EmulatedDrives& drives) {
     if (const int node = faults.refuses_heartbeat; node > 0)
       drives.drive(static_cast<std::uint8_t>(node)).faults.refuses_heartbeat = true;
@@ -206,27 +212,30 @@ int emulate_cia402(const std::vector<std::string>& named, int count) {
                              [&](hal::cia402::EmulatedDrives& drives) { show.look(drives); });
 }
 
-int emulate_mti(const std::vector<std::string>& named, double rate_radps) {
+struct MtiFlags {
+  std::vector<std::string> faults;
+  double rate_radps = 0.0;
+};
+
+int emulate_mti(const MtiFlags& flags) {
   hal::mti::EmulatedFaults faults;
   int unplug_s = 0;
-  take_faults(named,
+  take_faults(flags.faults,
               {{"garbled", &faults.garbled_every}, {"wrong_sums", &faults.wrong_sums_every}, {"unplug", &unplug_s}});
   SignalInbox signals;
   hal::mti::Emulator emulator;
   emulator.with_board([&](hal::mti::EmulatedMti& mti) {
     mti.faults = faults;
-    mti.rate_radps = rate_radps;
+    mti.rate_radps = flags.rate_radps;
   });
   return watch_until_stopped(signals, emulator, unplug_s, [](const hal::mti::EmulatedMti&) {});
 }
 
 void add_board(CLI::App& app, int& exit_code, const std::string& name, const std::string& help,
                const std::string& faults, int (*emulate)(const EmulateBoardFlags&)) {
-  auto* device = app.add_subcommand(name, help);
-  auto flags = std::make_shared<EmulateBoardFlags>();
+  const auto [device, flags] = add_verb(app, exit_code, name, help, emulate);
   device->add_option("--faults", flags->faults, faults + "; unplug=N: for a second, every N seconds")->delimiter(',');
   device->add_flag("--disarmed", flags->disarmed, "a switch is open: it says that it may not be fired");
-  device->callback([flags, emulate, &exit_code] { exit_code = emulate(*flags); });
 }
 
 }  // namespace
@@ -242,37 +251,25 @@ void add_rekick(CLI::App& app, int& exit_code) {
 }
 
 void add_cia402(CLI::App& app, int& exit_code) {
-  struct Flags {
-    std::vector<std::string> faults;
-    int drives = 3;
-  };
-  auto* device = app.add_subcommand("cia402", "Drives of a base, behind a SOCK_SEQPACKET socket in place of a CAN bus");
-  auto flags = std::make_shared<Flags>();
-  device->add_option("--drives", flags->drives, "how many, nodes 1 and on")
-      ->check(CLI::Range(1, 4))
-      ->capture_default_str();
+  const auto [device, flags] =
+      add_verb(app, exit_code, "cia402", "Drives of a base, behind a SOCK_SEQPACKET socket in place of a CAN bus",
+               emulate_cia402);
+  add_default(*device, "--drives", flags->drives, "how many, nodes 1 and on", CLI::Range(1, 4));
   device
       ->add_option("--faults", flags->faults,
                    "bus_off=N, overcurrent=N, silent=N (drive 1), unplug=N: for a second, every N seconds; "
                    "refuses_1016=N: drive N has no such object")
       ->delimiter(',');
-  device->callback([flags, &exit_code] { exit_code = emulate_cia402(flags->faults, flags->drives); });
 }
 
 void add_mti(CLI::App& app, int& exit_code) {
-  struct Flags {
-    std::vector<std::string> faults;
-    double rate_radps = 0.0;
-  };
-  auto* device = app.add_subcommand("mti", "An Xsens MTi, on a pseudo-terminal");
-  auto flags = std::make_shared<Flags>();
+  const auto [device, flags] = add_verb(app, exit_code, "mti", "An Xsens MTi, on a pseudo-terminal", emulate_mti);
   device->add_option("--rate-radps", flags->rate_radps, "that it says, about its z axis")
       ->check(CLI::Range(-50.0, 50.0));
   device
       ->add_option("--faults", flags->faults,
                    "garbled=N, wrong_sums=N: so is each N-th message; unplug=N: for a second, every N seconds")
       ->delimiter(',');
-  device->callback([flags, &exit_code] { exit_code = emulate_mti(flags->faults, flags->rate_radps); });
 }
 
 }  // namespace trivela::cli

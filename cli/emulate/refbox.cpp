@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <memory>
 
 #include "cli/emulate/devices.hpp"
 #include "cli/launch/signal_inbox.hpp"
@@ -161,8 +160,7 @@ int run_refbox(const RefboxFlags& flags) {
 }  // namespace
 
 void add_refbox(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("refbox", "The league's referee box for two teams");
-  auto flags = std::make_shared<RefboxFlags>();
+  const auto [verb, flags] = add_verb(app, exit_code, "refbox", "The league's referee box for two teams", run_refbox);
   verb->footer("Prints the address to connect to. Without --script and --replay keys say what the box says:\n" +
                std::string(box::kKeyHelp));
   auto* script = verb->add_option("--script", flags->script,
@@ -171,18 +169,14 @@ void add_refbox(CLI::App& app, int& exit_code) {
   verb->add_option("--replay", flags->replay, "say again what a box's text log has (TIME.msl)")
       ->check(readable_file())
       ->excludes(script);
-  verb->add_option("--teams", flags->wait_for, "script, replay: begin when so many teams are connected")
-      ->check(CLI::Range(0, 2))
-      ->capture_default_str();
-  verb->add_option("--speed", flags->speed, "script, replay: so many times as fast")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->capture_default_str();
-  verb->add_option("--port", flags->port, "0: any")->check(CLI::Range(0, 65535))->capture_default_str();
+  add_default(*verb, "--teams", flags->wait_for, "script, replay: begin when so many teams are connected",
+              CLI::Range(0, 2));
+  add_default(*verb, "--speed", flags->speed, "script, replay: so many times as fast", CLI::Range(0.01, 1000.0));
+  add_default(*verb, "--port", flags->port, "0: any", CLI::Range(0, 65535));
   verb->add_flag("--network", flags->network, "listen on every interface, not on the loopback alone");
   verb->add_flag("--letters", flags->letters, "speak the protocol of one letter, to version 1.5.0");
-  verb->add_option("--left", flags->teams.groups[0], "multicast group of the left team")->capture_default_str();
-  verb->add_option("--right", flags->teams.groups[1], "multicast group of the right team")->capture_default_str();
-  verb->callback([flags, &exit_code] { exit_code = run_refbox(*flags); });
+  add_default(*verb, "--left", flags->teams.groups[0], "multicast group of the left team");
+  add_default(*verb, "--right", flags->teams.groups[1], "multicast group of the right team");
 }
 
 }  // namespace trivela::cli

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -92,29 +91,29 @@ void write_kicks(const KickLabels& labels, const std::string& out) {
   rows.finish();
 }
 
+int import_kicks(const KicksArguments& arguments) {
+  std::ifstream in = open_file(arguments.csv);
+  const KickLabels labels = read_kick_labels(in, std::filesystem::path(arguments.csv).filename().string());
+  write_kicks(labels, arguments.out);
+  say(fmt::format("{}: {} kicks, labelled by {}\n", arguments.out, labels.kicks.size(),
+                  fmt::join(labels.labellers(), ", ")));
+  return kDone;
+}
+
 }  // namespace
 
-void add_import_kicks(CLI::App& verb, int& exit_code) {
-  auto* const subcommand = verb.add_subcommand("kicks", "Outcomes that somebody labelled by hand, from video");
-  const auto arguments = std::make_shared<KicksArguments>();
-  subcommand
-      ->add_option("csv", arguments->csv,
+void add_import_kicks(CLI::App& import, int& exit_code) {
+  const auto [verb, arguments] =
+      add_verb(import, exit_code, "kicks", "Outcomes that somebody labelled by hand, from video", import_kicks);
+  verb->add_option("csv", arguments->csv,
                    "Columns time (seconds, m:ss or h:mm:ss of the video, may be empty), policy, outcome (goal, saved, "
                    "inside, outside, unknown, or why it missed), by; if noted half, robot")
       ->required()
       ->type_name("CSV");
-  subcommand->add_option("--out", arguments->out, "Match log to make, must not exist")->required()->type_name("DB");
-  subcommand->footer(
+  verb->add_option("--out", arguments->out, "Match log to make, must not exist")->required()->type_name("DB");
+  verb->footer(
       "One file is one match. trivela report shows its Table 2, trivela compare compares its policies, also over\n"
       "several such logs.");
-  subcommand->callback([arguments, &exit_code] {
-    std::ifstream in = open_file(arguments->csv);
-    const KickLabels labels = read_kick_labels(in, std::filesystem::path(arguments->csv).filename().string());
-    write_kicks(labels, arguments->out);
-    say(fmt::format("{}: {} kicks, labelled by {}\n", arguments->out, labels.kicks.size(),
-                    fmt::join(labels.labellers(), ", ")));
-    exit_code = kDone;
-  });
 }
 
 }  // namespace trivela::cli

@@ -1,5 +1,3 @@
-#include <memory>
-
 #include "cli/kick/row_verbs.hpp"
 #include "kicking/alignment/alignment.hpp"
 
@@ -12,6 +10,8 @@ kicking::Extension extension(const Row& row) {
   if (rule == "add") return kicking::Extension::kAdd;
   throw CellError("rule", rule, "is neither max nor add");
 }
+
+int run_align(const RowArguments& arguments) { return run_row_verb(align_verb(), arguments); }
 
 }  // namespace
 
@@ -44,13 +44,11 @@ RowVerb align_verb() {
 }
 
 void add_align(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<RowArguments>();
-  CLI::App* verb = app.add_subcommand("align", "Is the robot aligned with the target?");
+  const auto [verb, arguments] = add_verb(app, exit_code, "align", "Is the robot aligned with the target?", run_align);
   verb->footer(
       "Appends distance_m, offset_right_m (empty: the line of the kick does not meet that of the target), left_m,\n"
       "right_m and aligned. Columns px, py, tx, ty are in m.");
   add_row_flags(*verb, align_verb(), *arguments);
-  verb->callback([arguments, &exit_code] { exit_code = run_row_verb(align_verb(), *arguments); });
 }
 
 }  // namespace trivela::cli

@@ -1,5 +1,3 @@
-#include <memory>
-
 #include "cli/kick/row_verbs.hpp"
 #include "evaluator/story/kick_picture.hpp"
 
@@ -25,6 +23,15 @@ evaluator::KickPicture picture_of(const Row& row, const FlightConstants& constan
     picture.side_line_x_m = 7.0;
   }
   return picture;
+}
+
+struct PredictArguments {
+  RowArguments rows;
+  FlightConstants constants;
+};
+
+int run_predict(const PredictArguments& arguments) {
+  return run_row_verb(predict_verb(arguments.constants), arguments.rows);
 }
 
 }  // namespace
@@ -56,12 +63,8 @@ RowVerb predict_verb(const FlightConstants& constants) {
 }
 
 void add_predict(CLI::App& app, int& exit_code) {
-  struct Arguments {
-    RowArguments rows;
-    FlightConstants constants;
-  };
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* verb = app.add_subcommand("predict", "Where the ball crosses the goal line if the order goes out now");
+  const auto [verb, arguments] = add_verb(
+      app, exit_code, "predict", "Where the ball crosses the goal line if the order goes out now", run_predict);
   verb->footer(
       "Appends x_cross_m, z_cross_m and t_flight_s, empty where the ball never crosses. Free flight without drag; a\n"
       "negative z_cross_m: it would have touched the floor before the line. Columns px, py, goal_y are in m, vx, vy, "
@@ -69,8 +72,6 @@ void add_predict(CLI::App& app, int& exit_code) {
       "in m/s, omega in rad/s.");
   add_row_flags(*verb, predict_verb({}), arguments->rows);
   add_flight_flags(*verb, arguments->constants);
-  verb->callback(
-      [arguments, &exit_code] { exit_code = run_row_verb(predict_verb(arguments->constants), arguments->rows); });
 }
 
 }  // namespace trivela::cli

@@ -18,10 +18,8 @@ struct FlightConstants {
 
 /// Adds --gravity-mps2 and --ball-radius-m.
 inline void add_flight_flags(CLI::App& verb, FlightConstants& constants) {
-  verb.add_option("--gravity-mps2", constants.gravity_mps2, "Gravity")->check(above_zero())->capture_default_str();
-  verb.add_option("--ball-radius-m", constants.ball.radius_m, "Radius of the ball")
-      ->check(above_zero())
-      ->capture_default_str();
+  add_default(verb, "--gravity-mps2", constants.gravity_mps2, "Gravity", above_zero());
+  add_default(verb, "--ball-radius-m", constants.ball.radius_m, "Radius of the ball", above_zero());
 }
 
 /// theta_deg, d_m, h_rel_m[, v_front_mps, k_transfer, Cd] -> v0_mps, vk_exact_mps, vk_paper_mps, feasible, descending

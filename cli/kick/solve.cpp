@@ -1,5 +1,3 @@
-#include <memory>
-
 #include "cli/kick/row_verbs.hpp"
 #include "config/robot.hpp"
 #include "evaluator/story/kick_picture.hpp"
@@ -59,6 +57,12 @@ struct SolveArguments {
   std::string robot_file;
 };
 
+int run_solve(const SolveArguments& arguments) {
+  std::optional<kicking::EffectiveTable> table;
+  if (!arguments.robot_file.empty()) table = config::load_robot(arguments.robot_file).model.table;
+  return run_row_verb(solve_verb(arguments.constants, table), arguments.rows);
+}
+
 }  // namespace
 
 RowVerb solve_verb(const FlightConstants& constants, const std::optional<kicking::EffectiveTable>& table) {
@@ -94,26 +98,17 @@ RowVerb solve_verb(const FlightConstants& constants, const std::optional<kicking
 }
 
 void add_solve(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<SolveArguments>();
-  CLI::App* verb = app.add_subcommand("solve", "Exit speed and power for a height at a distance");
+  const auto [verb, arguments] =
+      add_verb(app, exit_code, "solve", "Exit speed and power for a height at a distance", run_solve);
   verb->footer(
       "Appends v0_mps (robot at rest), vk_exact_mps and vk_paper_mps (moving robot), feasible, descending; with Cd\n"
       "v0_drag_mps; with --robot power and power_range (below, in or above the table) for vk_exact_mps.\n"
       "Results of a row that no speed solves are empty. --svg draws vk_exact_mps, towards the middle of the goal.");
   add_row_flags(*verb, solve_verb({}, {}), arguments->rows);
   add_flight_flags(*verb, arguments->constants);
-  verb->add_option("--ball-mass-kg", arguments->constants.ball.mass_kg, "Mass of the ball")
-      ->check(above_zero())
-      ->capture_default_str();
-  verb->add_option("--air-density-kgpm3", arguments->constants.air.density_kgpm3, "Density of the air")
-      ->check(above_zero())
-      ->capture_default_str();
+  add_default(*verb, "--ball-mass-kg", arguments->constants.ball.mass_kg, "Mass of the ball", above_zero());
+  add_default(*verb, "--air-density-kgpm3", arguments->constants.air.density_kgpm3, "Density of the air", above_zero());
   verb->add_option("--robot", arguments->robot_file, "Robot file whose table gives the power")->type_name("FILE");
-  verb->callback([arguments, &exit_code] {
-    std::optional<kicking::EffectiveTable> table;
-    if (!arguments->robot_file.empty()) table = config::load_robot(arguments->robot_file).model.table;
-    exit_code = run_row_verb(solve_verb(arguments->constants, table), arguments->rows);
-  });
 }
 
 }  // namespace trivela::cli

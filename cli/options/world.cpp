@@ -18,7 +18,7 @@ std::string World::named(const std::string& base) const {
 }
 
 void add_world_options(CLI::App& verb, World& world) {
-  verb.add_option("--scenario", world.file, "The world")->check(readable_file())->capture_default_str();
+  add_default(verb, "--scenario", world.file, "The world", readable_file());
   verb.add_option("--world", world.changes, "One value of it on top, e.g. --world keeper.reaction_s=0.15");
 }
 

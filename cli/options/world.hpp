@@ -1,10 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <string>
 #include <vector>
 
+#include "cli/verbs.hpp"
 #include "config/text/installation.hpp"
 #include "sim/scenario.hpp"
 

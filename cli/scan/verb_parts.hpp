@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "cli/verbs.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/lob/scan.hpp"
 #include "log/write/scan_log.hpp"
 #include "sim/laser/record.hpp"
-
-#include <CLI/CLI.hpp>
 
 namespace trivela::cli {
 
@@ -28,16 +27,11 @@ struct MountFlags {
 };
 
 inline void add_mount_flags(CLI::App& verb, MountFlags& flags) {
-  verb.add_option("--laser-x-m", flags.laser_x_m, "scanner, along the kick from the ball's centre at the launch")
-      ->check(CLI::Range(-100.0, 100.0))
-      ->capture_default_str();
-  verb.add_option("--laser-z-m", flags.laser_z_m, "scanner, over the floor")
-      ->check(CLI::Range(-10.0, 10.0))
-      ->capture_default_str();
-  verb.add_option("--front-elevation-deg", flags.front_elevation_deg,
-                  "direction of the scanner's front: 0 along the kick, 90 upwards")
-      ->check(CLI::Range(-360.0, 360.0))
-      ->capture_default_str();
+  add_default(verb, "--laser-x-m", flags.laser_x_m, "scanner, along the kick from the ball's centre at the launch",
+              CLI::Range(-100.0, 100.0));
+  add_default(verb, "--laser-z-m", flags.laser_z_m, "scanner, over the floor", CLI::Range(-10.0, 10.0));
+  add_default(verb, "--front-elevation-deg", flags.front_elevation_deg,
+              "direction of the scanner's front: 0 along the kick, 90 upwards", CLI::Range(-360.0, 360.0));
   verb.add_flag("--mirrored", flags.mirrored, "the scanner lies on its other side");
 }
 

@@ -137,11 +137,10 @@ void add_key_robots(CLI::App* verb, KeyFlags& flags, const char* nodes) {
 }
 
 void add_key_validity(CLI::App* verb, KeyFlags& flags) {
-  auto* days = verb->add_option("--days", flags.days,
-                                "how long they hold from now: a tournament's week and a day on "
-                                "each side")
-                   ->check(CLI::Range(1, 366))
-                   ->capture_default_str();
+  auto* days = add_default(*verb, "--days", flags.days,
+                           "how long they hold from now: a tournament's week and a day on "
+                           "each side",
+                           CLI::Range(1, 366));
   auto* from = verb->add_option("--from", flags.from, "first day, e.g. 2026-07-01 (UTC)")->excludes(days);
   auto* to = verb->add_option("--to", flags.to, "last day (UTC)")->needs(from);
   from->needs(to);

@@ -126,14 +126,13 @@ int configure_machine(const ConfigureFlags& flags) {
 }
 
 void add_configure(CLI::App& team, int& exit_code) {
-  auto* const verb = team.add_subcommand("configure", "Write the configuration of one machine of a team");
-  auto flags = std::make_shared<ConfigureFlags>();
-  verb->add_option("file", flags->file, "such as config/teams/example.toml")->capture_default_str();
+  const auto [verb, flags] =
+      add_verb(team, exit_code, "configure", "Write the configuration of one machine of a team", configure_machine);
+  add_default(*verb, "file", flags->file, "such as config/teams/example.toml");
   verb->add_option("--robot", flags->robot, "the robot of this number");
   verb->add_flag("--base", flags->base, "the base station");
   verb->add_option("--out", flags->out, "its folder, made where there is none")->required();
   verb->add_flag("--force", flags->force, "overwrite files that were edited by hand");
-  verb->callback([flags, &exit_code] { exit_code = configure_machine(*flags); });
 }
 
 }  // namespace
@@ -143,7 +142,7 @@ void add_team(CLI::App& app, int& exit_code) {
   verb->require_subcommand(1);
   auto* const check = verb->add_subcommand("check", "Say everything that is wrong with a team's file");
   auto file = std::make_shared<std::string>("team.toml");
-  check->add_option("file", *file, "such as config/teams/example.toml")->capture_default_str();
+  add_default(*check, "file", *file, "such as config/teams/example.toml");
   check->callback([file, &exit_code] { exit_code = check_team(*file); });
   add_configure(*verb, exit_code);
 }

@@ -26,13 +26,10 @@ pages::ListenAddress address_of(const WatchFlags& flags) {
 }  // namespace
 
 std::vector<CLI::Option*> add_watch_flags(CLI::App& verb, WatchFlags& flags) {
-  return {verb.add_option("--listen", flags.listen,
-                          "ADDRESS[:PORT] to serve the page on, such as the base's on the team's network; other than "
-                          "loopback it needs a token")
-              ->capture_default_str(),
-          verb.add_option("--port", flags.port, "port of the page, 0: any free one")
-              ->check(CLI::Range(0, 65535))
-              ->capture_default_str(),
+  return {add_default(verb, "--listen", flags.listen,
+                      "ADDRESS[:PORT] to serve the page on, such as the base's on the team's network; other than "
+                      "loopback it needs a token"),
+          add_default(verb, "--port", flags.port, "port of the page, 0: any free one", CLI::Range(0, 65535)),
           verb.add_option("--token-file", flags.token_file,
                           "file with the page's token (chmod 600); without it one is drawn where it is needed")};
 }

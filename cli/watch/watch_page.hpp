@@ -1,8 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "cli/verbs.hpp"
 #include "config/settings.hpp"
 #include "pages/monitor/match_feed.hpp"
 #include "pages/serve/page_server.hpp"

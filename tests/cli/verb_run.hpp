@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/verbs.hpp"
+
 namespace trivela::cli {
 
 /// What verbs of the program printed in this process, and their exit code.
@@ -16,14 +18,12 @@ struct VerbRun {
   int exit_code = -1;
 };
 
-using AddVerb = void (*)(CLI::App&, int&);
-
 /// Parses `words` (a line, or in CLI11's order: the last first) with these verbs. Throws what they throw.
 template <class Words>
-VerbRun run_parsed(std::initializer_list<AddVerb> verbs, Words words) {
+VerbRun run_parsed(std::initializer_list<AddVerb*> verbs, Words words) {
   CLI::App app;
   VerbRun run;
-  for (const AddVerb add : verbs) add(app, run.exit_code);
+  for (AddVerb* const add : verbs) add(app, run.exit_code);
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   try {
@@ -39,11 +39,11 @@ VerbRun run_parsed(std::initializer_list<AddVerb> verbs, Words words) {
 }
 
 /// The verbs as a user types them, `line` without "trivela".
-inline VerbRun run_verbs(std::initializer_list<AddVerb> verbs, const std::string& line) {
+inline VerbRun run_verbs(std::initializer_list<AddVerb*> verbs, const std::string& line) {
   return run_parsed(verbs, line);
 }
 /// The same in words, which may hold blanks.
-inline VerbRun run_verbs(std::initializer_list<AddVerb> verbs, const std::vector<std::string>& words) {
+inline VerbRun run_verbs(std::initializer_list<AddVerb*> verbs, const std::vector<std::string>& words) {
   return run_parsed(verbs, std::vector<std::string>(words.rbegin(), words.rend()));
 }
 
