@@ -103,10 +103,10 @@ void add_opportunity(Columns& row, const evaluator::LoggedOpportunities& logged,
   row.add("ending", ending_of(opportunity.ending));
   row.add("blocked", opportunity.blocked);
   row.add("label_doubt", opportunity.doubt);
-  row.add("bounced", opportunity.bounced);
-  row.add("saved", opportunity.saved);
-  row.add("truth_bounced", opportunity.truth_bounced);
-  row.add("truth_saved", opportunity.truth_saved);
+  row.add("bounced", opportunity.said.bounced);
+  row.add("saved", opportunity.said.saved);
+  row.add("truth_bounced", opportunity.said.truth_bounced);
+  row.add("truth_saved", opportunity.said.truth_saved);
 }
 
 /// Of all logs together: (columns, remarks).

@@ -44,13 +44,18 @@ SaidOfInside& SaidOfInside::operator+=(const SaidOfInside& other) {
   return *this;
 }
 
+void KickCounts::add(const std::string& label, const SaidOfKick& said) {
+  ++kicks_by_outcome[label];
+  if (label != label_of(Ending::kInside)) return;
+  inside_kicks.bounced.add(said.bounced, said.truth_bounced);
+  inside_kicks.saved.add(said.saved, said.truth_saved);
+  inside_kicks.by_people += said.by_people ? 1 : 0;
+}
+
 void KickCounts::add(const Opportunity& o) {
   if (o.ending == Ending::kNoKick) return;
-  ++kicks_by_outcome[label_of(o.ending)];
+  add(label_of(o.ending), o.said);
   doubt += {o.ending == Ending::kInside ? o.doubt : 0.0, o.ending == Ending::kOutside ? o.doubt : 0.0};
-  if (o.ending != Ending::kInside) return;
-  inside_kicks.bounced.add(o.bounced, o.truth_bounced);
-  inside_kicks.saved.add(o.observed_saved, o.truth_saved);
 }
 
 KickCounts& KickCounts::operator+=(const KickCounts& other) {

@@ -49,6 +49,8 @@ struct KickCounts {
   bool by_truth = false;             ///< what was saved goes by the simulator's truth
   std::optional<double> played_min;  ///< minutes of play in the possessions in which it had the ball; none: not known
 
+  /// A kick with the label that holds, and what was said of it if it was on target.
+  void add(const std::string& label, const SaidOfKick& said);
   /// An opportunity; without a kick it adds nothing.
   void add(const Opportunity& opportunity);
   KickCounts& operator+=(const KickCounts& other);

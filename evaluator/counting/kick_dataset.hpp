@@ -30,6 +30,13 @@ enum class Design {
 const char* label(Design design);
 std::optional<Design> design_of(const std::string& label);
 
+/// What was said of a kick on target, as observed and by the simulator's truth; none: nothing.
+struct SaidOfKick {
+  std::optional<bool> bounced{}, truth_bounced{};  ///< it touched the floor before the line
+  std::optional<bool> saved{}, truth_saved{};      ///< a keeper stopped it; `saved`: or so somebody says
+  bool by_people = false;                          ///< somebody says of it goal or saved
+};
+
 /// One opportunity, or one kick where opportunities are not known. Numbers are places in the dataset's lists.
 struct Opportunity {
   std::uint32_t group = 0;
@@ -41,11 +48,8 @@ struct Opportunity {
   std::uint32_t calibration =
       0;               ///< number of the calibration that the robots were calibrated on; 0 where none is named
   double doubt = 0.0;  ///< probability that a kick called inside was not, or one called outside was
-  std::optional<bool> bounced{};         ///< it touched the floor before the line, as observed; none: not said
-  std::optional<bool> truth_bounced{};   ///< the same by the simulator's truth
-  std::optional<bool> observed_saved{};  ///< a keeper stopped it, as observed or said by hand; none: not known
-  std::optional<bool> truth_saved{};     ///< the same by the simulator's truth
-  std::optional<bool> saved{};           ///< by what the ending is of
+  SaidOfKick said{};
+  std::optional<bool> saved{};  ///< a keeper stopped it, by what the ending is of
 };
 
 /// Everything that a comparison looks at, whether it comes from match logs or a table of kicks.

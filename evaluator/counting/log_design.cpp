@@ -164,9 +164,8 @@ void keep_common_settings(KickDataset& dataset, const std::string& by) {
     groups_of[o.setting].insert(o.group);
     if (o.id == 0 || seen.insert({o.group, situation_of(o)}).second) continue;
     throw std::runtime_error(fmt::format(
-        "{0} '{1}' was played twice on the same opportunities, in sessions that differ: {2}, or leave a log "
-        "out",
-        by, dataset.groups[o.group], by == "arm" ? "give each its own arm" : "compare by arm"));
+        "{0} '{1}' was played twice on the same opportunities, in sessions that differ: {2}, or leave a log out", by,
+        dataset.groups[o.group], by == "arm" ? "give each its own arm" : "compare by arm"));
   }
   const auto common = [&](std::uint32_t setting) { return groups_of[setting].size() == dataset.groups.size(); };
   if (std::ranges::none_of(groups_of, [&](const auto& of) { return common(of.first); })) {

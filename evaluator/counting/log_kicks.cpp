@@ -8,7 +8,6 @@
 #include <functional>
 #include <map>
 #include <set>
-#include <stdexcept>
 #include <tuple>
 
 #include "evaluator/counting/log_design.hpp"
@@ -105,10 +104,9 @@ void check(const LogKicks& options, const std::string& by, bool known_stratum) {
     throw BadOption(fmt::format("by '{}': a match log is compared by policy, table, robot, arm or log", by));
   }
   if (!options.stratify.empty() && !known_stratum) {
-    throw BadOption(
-        fmt::format("stratify '{}': a match log has distance, start_distance, robot, half, "
-                    "scenario, table, policy, arm and log",
-                    options.stratify));
+    throw BadOption(fmt::format(
+        "stratify '{}': a match log has distance, start_distance, robot, half, scenario, table, policy, arm and log",
+        options.stratify));
   }
 }
 
@@ -148,11 +146,8 @@ Opportunity opportunity_of(const LoggedOpportunity& o, const ComparedSession& se
   }
   opportunity.ending = dataset.blocked_apart && o.blocked ? Ending::kBlocked : o.ending;
   if (opportunity.ending != Ending::kBlocked) opportunity.doubt = o.doubt;
-  opportunity.bounced = o.bounced;
-  opportunity.truth_bounced = o.truth_bounced;
-  opportunity.observed_saved = o.saved;
-  opportunity.truth_saved = o.truth_saved;
-  opportunity.saved = dataset.outcome == "truth" ? o.truth_saved : o.saved;
+  opportunity.said = o.said;
+  opportunity.saved = dataset.outcome == "truth" ? o.said.truth_saved : o.said.saved;
   return opportunity;
 }
 
@@ -181,7 +176,7 @@ std::vector<std::size_t> enter_opportunities(KickDataset& dataset, const LoggedO
       opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(dataset.strata, stratum);
       opportunity.setting = settings.of(session, o.policy);
       opportunity.calibration = calibrations.try_emplace(session.calibration_id, calibrations.size()).first->second;
-      dataset.keeper = dataset.keeper || o.says_goals || opportunity.saved.value_or(false);
+      dataset.keeper = dataset.keeper || o.said.by_people || opportunity.saved.value_or(false);
       rows.push_back(i);
     }
   }
@@ -206,10 +201,6 @@ std::string what_differs(const LoggedOpportunities& logged) {
 }
 
 }  // namespace
-
-KickDataset read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by) {
-  return kick_dataset_of(read_opportunities(logs, options.truth), options, by);
-}
 
 KickDataset kick_dataset_of(const LoggedOpportunities& logged, const LogKicks& options, std::string& by) {
   by = options.by.empty() ? what_differs(logged) : options.by;

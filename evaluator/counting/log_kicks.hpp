@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -28,11 +27,8 @@ struct LogKicks {
   bool blocked_apart = false;  ///< blocked kicks stand apart; otherwise they are outside
 };
 
-/// All sessions of the logs together. `by` becomes what is compared. Throws std::runtime_error with file and value
-/// where a log cannot be read, BadOption where the logs have not what is asked for.
-KickDataset read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by);
-
-/// The same of what was read of them, with the outcomes that it was read for: `options.truth` says which.
+/// All sessions of the logs together, with the outcomes that they were read for: `options.truth` says which. `by`
+/// becomes what is compared. Throws BadOption where the logs have not what is asked for.
 KickDataset kick_dataset_of(const LoggedOpportunities& logged, const LogKicks& options, std::string& by);
 
 /// Each of `groups`, policies or arms as `by` says, in the later logs against the first: yesterday against today. Their

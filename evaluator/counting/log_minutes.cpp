@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
-#include <vector>
 
 #include "evaluator/metrics/assigned_possessions.sql.hpp"
 #include "evaluator/metrics/played_spans.sql.hpp"

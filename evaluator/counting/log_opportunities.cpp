@@ -15,7 +15,6 @@
 #include "evaluator/sessions/log_sessions.hpp"
 #include "evaluator/sessions/no_goal.hpp"
 #include "evaluator/sessions/recording_gaps.hpp"
-#include "log/read/reader.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -25,28 +24,10 @@ Ending ending_of(const std::string& outcome) {
   return outcome == "on_target" ? Ending::kInside : Ending::kOutside;
 }
 
-// A row of compared_kicks.sql.
-struct SeenKick {
-  std::uint32_t session = 0;
-  int robot_id = 0;
-  int half = 0;
-  std::int64_t possession_id = 0;
-  std::string policy;
-  std::string outcome;
-  std::optional<double> distance_m;
-  std::int64_t kick_id = 0;
-  std::optional<double> p_inside;  // of the observed label; none where the truth is asked for
-  std::optional<bool> bounced;
-  std::optional<bool> truth_bounced;
-  std::optional<bool> saved;
-  std::optional<bool> truth_saved;
-  bool says_goals = false;
-};
-
 // What the logs say, of every session; what counts is known when all are read.
 struct SeenRows {
   std::vector<LoggedOpportunity> opportunities;
-  std::vector<SeenKick> kicks;
+  std::vector<CountedKick> kicks;
   HeardPlay play;
 };
 
@@ -130,11 +111,11 @@ void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, const T
                           .distance_m = row.find<double>("distance_m"),
                           .kick_id = row.get<std::int64_t>("kick_id"),
                           .p_inside = truth ? std::nullopt : row.find<double>("observed_p_on_target"),
-                          .bounced = row.find<bool>("bounced"),
-                          .truth_bounced = row.find<bool>("truth_bounced"),
-                          .saved = row.find<bool>("saved"),
-                          .truth_saved = row.find<bool>("truth_saved"),
-                          .says_goals = row.get<bool>("label_says_goals")});
+                          .said = {.bounced = row.find<bool>("bounced"),
+                                   .truth_bounced = row.find<bool>("truth_bounced"),
+                                   .saved = row.find<bool>("saved"),
+                                   .truth_saved = row.find<bool>("truth_saved"),
+                                   .by_people = row.get<bool>("label_says_goals")}});
   });
 }
 
@@ -163,12 +144,10 @@ PossessionPlaces add_opportunities(std::vector<LoggedOpportunity>&& opportunitie
   return places;
 }
 
-void add_kicks(const std::vector<SeenKick>& kicks, const SessionIndex& sessions_read, const PossessionPlaces& places,
-               bool truth, LoggedOpportunities& logged) {
+void add_kicks(const PossessionPlaces& places, bool truth, LoggedOpportunities& logged) {
   std::int64_t alone = 0;
   std::array<std::int64_t, kNoGoals.size()> no_goals{};
-  for (const SeenKick& kick : kicks) {
-    if (!sessions_read.counts(kick.session, kick.robot_id, kick.kick_id)) continue;
+  for (const CountedKick& kick : logged.kicks) {
     const ComparedSession& session = logged.sessions[kick.session];
     const auto place = places.find({session.play, kick.robot_id, kick.half, kick.possession_id});
     if (place == places.end()) {
@@ -190,11 +169,7 @@ void add_kicks(const std::vector<SeenKick>& kicks, const SessionIndex& sessions_
               : o.ending == Ending::kOutside             ? *kick.p_inside
                                                          : 0.0;
     o.blocked = kick.outcome == "blocked";
-    o.bounced = kick.bounced;
-    o.truth_bounced = kick.truth_bounced;
-    o.saved = kick.saved;
-    o.truth_saved = kick.truth_saved;
-    o.says_goals = kick.says_goals;
+    o.said = kick.said;
   }
   for (std::size_t i = 0; i < kNoGoals.size(); ++i) {
     if (no_goals[i] == 0) continue;
@@ -243,7 +218,11 @@ class OpportunityReading {
     logged_.remarks = sessions_read_.remarks();
     logged_.remarks.insert(logged_.remarks.end(), logged_.not_counted.begin(), logged_.not_counted.end());
     const PossessionPlaces places = add_opportunities(std::move(seen_.opportunities), logged_);
-    add_kicks(seen_.kicks, sessions_read_, places, truth_, logged_);
+    logged_.kicks = std::move(seen_.kicks);
+    std::erase_if(logged_.kicks, [&](const CountedKick& kick) {
+      return !sessions_read_.counts(kick.session, kick.robot_id, kick.kick_id);
+    });
+    add_kicks(places, truth_, logged_);
     logged_.remarks.insert(logged_.remarks.end(), losses_.begin(), losses_.end());
     remark_lengths();
     logged_.spans = played_spans(seen_.play, logged_);

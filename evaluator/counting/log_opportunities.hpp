@@ -42,14 +42,24 @@ struct LoggedOpportunity {
   std::optional<double> distance_m;        ///< ball to target at the kick, as the robot believed; none: no kick
   std::optional<FirstDecision> first;      ///< none: the log has not every cycle
   Ending ending = Ending::kNoKick;
-  double doubt = 0.0;                   ///< probability that a kick called inside was not, or one called outside was
-  bool blocked = false;                 ///< the kick, an Ending::kOutside
-  std::optional<bool> bounced{};        ///< as observed
-  std::optional<bool> truth_bounced{};  ///< by the simulator's truth
-  std::optional<bool> saved{};          ///< on target, and a keeper stopped it: as observed or said by hand
-  std::optional<bool> truth_saved{};    ///< by the simulator's truth; none: not on target by that
-  bool says_goals = false;              ///< somebody says of it goal or saved
-  bool has_possession = true;           ///< false: a kick alone
+  double doubt = 0.0;    ///< probability that a kick called inside was not, or one called outside was
+  bool blocked = false;  ///< the kick, an Ending::kOutside
+  SaidOfKick said{};
+  bool has_possession = true;  ///< false: a kick alone
+};
+
+/// A kick that counts: a row of compared_kicks.sql.
+struct CountedKick {
+  std::uint32_t session = 0;  ///< place in the sessions
+  int robot_id = 0;
+  int half = 0;
+  std::int64_t possession_id = 0;
+  std::string policy;
+  std::string outcome;  ///< its label, by what the logs were read for; empty: not known
+  std::optional<double> distance_m;
+  std::int64_t kick_id = 0;
+  std::optional<double> p_inside;  ///< of the observed label; none where the truth is asked for
+  SaidOfKick said{};
 };
 
 /// Play while a possession lasted.
@@ -65,6 +75,7 @@ struct LoggedOpportunities {
   std::vector<std::string> logs;  ///< their names, in the order of reading
   std::vector<ComparedSession> sessions;
   std::vector<LoggedOpportunity> rows;
+  std::vector<CountedKick> kicks;  ///< of two in a possession its row has the later one
   std::vector<PlayedSpan> spans;
   std::uint32_t matches = 0;
   std::int64_t draws_of_halves = 0;      ///< policies drawn where nobody counted possessions: one a half

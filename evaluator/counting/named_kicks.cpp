@@ -5,7 +5,6 @@
 
 #include <charconv>
 #include <stdexcept>
-#include <utility>
 
 #include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"

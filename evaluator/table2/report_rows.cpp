@@ -7,7 +7,6 @@
 
 #include "evaluator/counting/pair_counts.hpp"
 #include "evaluator/counting/policy_order.hpp"
-#include "evaluator/metrics/outcomes_by_session.sql.hpp"
 #include "evaluator/stats/clustered.hpp"
 
 namespace trivela::evaluator {
@@ -99,28 +98,11 @@ void add_minutes(Rows& rows, const LoggedOpportunities& logged) {
   }
 }
 
-void add_kicks(Rows& rows, const log::Reader& reader) {
-  reader.query(kOutcomesBySessionSql, [&](const log::NamedCells& row) {
-    const auto& outcome = row.get<std::string>("outcome");
-    rows.of_both(row.get<int>("robot_id"), row.get<std::int64_t>("session_id"), row.get<std::string>("policy"),
-                 [&](RobotRow& of) {
-                   of.kicks_by_outcome[outcome] += row.get<std::int64_t>("kicks");
-                   if (outcome != "on_target") return;
-                   const auto add = [&](std::int64_t& sum, const char* column) {
-                     sum += row.get<std::int64_t>(column);
-                   };
-                   auto& [bounced, saved, by_people] = of.inside_kicks;
-                   add(by_people, "by_people");
-                   add(bounced.observed, "observed");
-                   add(bounced.observed_yes, "observed_bounced");
-                   add(bounced.truth, "truth");
-                   add(bounced.truth_yes, "truth_bounced");
-                   add(saved.observed, "observed_to_the_end");
-                   add(saved.observed_yes, "observed_saved");
-                   add(saved.truth, "truth_to_the_end");
-                   add(saved.truth_yes, "truth_saved");
-                 });
-  });
+void add_kicks(Rows& rows, const LoggedOpportunities& logged) {
+  for (const CountedKick& kick : logged.kicks) {
+    rows.of_both(kick.robot_id, logged.sessions[kick.session].session_id, kick.policy,
+                 [&](RobotRow& row) { row.add(kick.outcome.empty() ? "unknown" : kick.outcome, kick.said); });
+  }
 }
 
 // Situations of paired halves are one thing each, however many halves had them.
@@ -154,7 +136,7 @@ ReportRows report_rows(const CountedLogs& logs, bool blocked_apart) {
   Rows rows(logs.arms);
   enter_policies(rows, logs);
   add_minutes(rows, logs.logged);
-  for (const log::Reader* const reader : logs.readers) add_kicks(rows, *reader);
+  add_kicks(rows, logs.logged);
   allow_for_paired_halves(rows, logs.logged);
   for (const KickerDoubt& doubt : logs.doubts)
     rows.of_both(doubt.robot_id, doubt.session_id, doubt.policy, [&](RobotRow& row) { row.doubt += doubt.doubt; });

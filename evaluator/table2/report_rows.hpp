@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "evaluator/table2/table2.hpp"
@@ -9,7 +8,6 @@ namespace trivela::evaluator {
 
 /// What the rows of a report are counted from.
 struct CountedLogs {
-  std::span<const log::Reader* const> readers;  ///< whose counted_kicks has what counts
   const LoggedOpportunities& logged;
   const std::vector<log::RecordedSession>& sessions;
   const Arms& arms;

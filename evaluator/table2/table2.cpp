@@ -197,7 +197,7 @@ Report make_report(std::span<const OpenLog> logs, bool blocked_apart) {
   forget_absent_robots(report.sessions, logged);
   report.lengths = played_lengths(readers, logged.sessions);
   Arms arms = arms_of(logged, report.sessions);
-  ReportRows rows = report_rows({readers, logged, report.sessions, arms, report.labels.doubts}, blocked_apart);
+  ReportRows rows = report_rows({logged, report.sessions, arms, report.labels.doubts}, blocked_apart);
   report.policies = std::move(rows.policies);
   report.robots = std::move(rows.robots);
   report.robot_ids = std::move(rows.robot_ids);

@@ -9,12 +9,19 @@
 #include <string>
 #include <vector>
 
+#include "evaluator/counting/log_kicks.hpp"
 #include "log/read/reader.hpp"
 #include "log/write/writer.hpp"
 #include "tests/evaluator/referee_row.hpp"
 #include "tests/support/folder.hpp"
 
 namespace trivela::evaluator {
+
+/// What a comparison of these logs is made of.
+inline KickDataset read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options,
+                                  std::string& by) {
+  return kick_dataset_of(read_opportunities(logs, options.truth), options, by);
+}
 
 /// A directory of its own for each test, with what most of them need.
 class LogTest : public testing::Test {
