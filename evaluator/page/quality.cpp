@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "evaluator/page/html.hpp"
 #include "evaluator/page/report_page.hpp"
 #include "evaluator/render/text_table.hpp"
@@ -16,18 +14,15 @@ using Cells = std::vector<std::string>;
 std::string n_of(std::int64_t n) { return std::to_string(n); }
 
 std::string missing(const Report& report) {
-  std::vector<Cells> rows{
-      {"stream", "received", "lost on the bus", "gaps", "queue full", "not a number", "rejected", "late"}};
-  for (const log::Loss& loss : report.losses) {
-    rows.push_back({loss.stream, n_of(loss.received), n_of(loss.lost), n_of(loss.gaps), n_of(loss.overflow),
-                    n_of(loss.nan_refused), n_of(loss.rejected), n_of(loss.out_of_order)});
-  }
   std::string body = "<h3>Missing</h3>\n";
   body += paragraphs({report.rows_missing() == 0 ? "No row is missing of those that were sent."
                                                  : fmt::format("{} rows are missing.", report.rows_missing())});
   body += list_of(silence_lines(report.silences)) + list_of(order_lines(report.unrecorded_orders)) +
           list_of(cut_short_lines(report.lengths));
-  return body + (rows.size() > 1 ? details("By stream", table("Rows by stream", rows)) : "");
+  if (report.losses.empty()) return body;
+  std::vector<Cells> rows = loss_table(report.losses);
+  rows.front().front() = "stream";
+  return body + details("By stream", table("Rows by stream", rows));
 }
 
 std::string bounds(const Report& report) {

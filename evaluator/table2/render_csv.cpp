@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/sessions/no_goal.hpp"
 #include "evaluator/table2/table2.hpp"
@@ -10,50 +12,19 @@ namespace {
 
 using CsvCells = std::vector<std::string>;
 
-const CsvCells kCsvHead = {"row",
-                           "arm",
-                           "policy",
-                           "robot_id",
-                           "inside",
-                           "outside",
-                           "unknown",
-                           "efficiency",
-                           "wilson95_lo",
-                           "wilson95_hi",
-                           "efficiency_unknown_out",
-                           "efficiency_unknown_in",
-                           "played_min",
-                           "kicks_per_min"};
-const CsvCells kCsvMore = {"not_said",
-                           kNoGoals[0].label,
-                           kNoGoals[1].label,
-                           "observed_bounced",
-                           "observed_bounced_of",
-                           "truth_bounced",
-                           "truth_bounced_of",
-                           "observed_saved",
-                           "observed_saved_of",
-                           "truth_saved",
-                           "truth_saved_of",
-                           "goals",
-                           "goal_not_known",
-                           "expected_wrong_inside",
-                           "expected_wrong_outside",
-                           "repeated_in_paired_halves",
-                           "simulated",
-                           "data_lost",
-                           "name",
-                           "value"};
+/// Columns that a number of no policy leaves empty, then its name and value.
+std::string csv_head() {
+  return fmt::format(
+      "row,arm,policy,robot_id,inside,outside,unknown,efficiency,wilson95_lo,wilson95_hi,efficiency_unknown_out,"
+      "efficiency_unknown_in,played_min,kicks_per_min,{},not_said,{},{},observed_bounced,observed_bounced_of,truth_"
+      "bounced,truth_bounced_of,observed_saved,observed_saved_of,truth_saved,truth_saved_of,goals,goal_not_known,"
+      "expected_wrong_inside,expected_wrong_outside,repeated_in_paired_halves,simulated,data_lost,name,value",
+      fmt::join(kMisses, ","), kNoGoals[0].label, kNoGoals[1].label);
+}
 
 std::string csv_cell(std::optional<double> value) { return value ? fmt::format("{}", *value) : ""; }
 std::string csv_cell(double value) { return fmt::format("{}", value); }
 std::string csv_cell(std::int64_t value) { return fmt::format("{}", value); }
-
-/// A line of a table of the report: as many cells as the head has.
-std::string csv_line(CsvCells cells) {
-  cells.resize(kCsvHead.size() + kMisses.size() + kCsvMore.size());
-  return fmt::format("{}\n", fmt::join(cells, ","));
-}
 
 std::string csv_row_line(const PolicyRow& row, const std::string& robot_id, const Report& report) {
   const auto wilson = row.efficiency_ci(), bounds = row.efficiency_bounds();
@@ -83,16 +54,13 @@ std::string csv_row_line(const PolicyRow& row, const std::string& robot_id, cons
   cells.push_back(csv_cell(row.repeated));
   cells.push_back(report.simulated_sessions() > 0 ? "1" : "0");
   cells.push_back(report.data_lost() ? "1" : "0");
-  return csv_line(std::move(cells));
+  return fmt::format("{},,\n", fmt::join(cells, ","));
 }
 
 // A number that belongs to no policy: `row` says to which part of the report, `name` which one.
 std::string csv_number_line(const std::string& row, const std::string& name, const std::string& value) {
-  CsvCells cells(kCsvHead.size() + kMisses.size() + kCsvMore.size());
-  cells.front() = row;
-  cells[cells.size() - 2] = csv_text(name);
-  cells.back() = value;
-  return csv_line(std::move(cells));
+  static const auto between = static_cast<std::size_t>(std::ranges::count(csv_head(), ',') - 1);
+  return fmt::format("{}{}{},{}\n", row, std::string(between, ','), csv_text(name), value);
 }
 
 std::string csv_quality_lines(const Report& report) {
@@ -139,8 +107,7 @@ std::string csv_quality_lines(const Report& report) {
 }  // namespace
 
 std::string to_csv(const Report& report) {
-  std::string text =
-      fmt::format("{},{},{}\n", fmt::join(kCsvHead, ","), fmt::join(kMisses, ","), fmt::join(kCsvMore, ","));
+  std::string text = csv_head() + "\n";
   for (const PolicyRow& row : report.policies) text += csv_row_line(row, "", report);
   for (const RobotRow& row : report.robots) text += csv_row_line(row, fmt::to_string(row.robot_id), report);
   return text + csv_quality_lines(report);

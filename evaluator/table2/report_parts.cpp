@@ -16,7 +16,7 @@ namespace {
 
 std::string shown(std::int64_t n) { return std::to_string(n); }
 
-std::string shown(std::optional<double> x, const std::string& none) { return x ? fmt::format("{:.2f}", *x) : none; }
+std::string shown(std::optional<double> x) { return x ? fmt::format("{:.2f}", *x) : "-"; }
 
 // Lines that are indented for a terminal, as sentences.
 void add_lines(std::vector<std::string>& notes, const std::string& lines) {
@@ -43,6 +43,20 @@ void append(std::vector<std::string>& cells, const std::vector<std::string>& mor
   cells.insert(cells.end(), more.begin(), more.end());
 }
 
+std::vector<std::string> count_cells(const PolicyRow& row) {
+  const auto efficiency = stats::efficiency(row.counts());
+  return {shown(row.inside()),
+          shown(row.outside()),
+          shown(row.unknown()),
+          efficiency ? percent(*efficiency) : "-",
+          efficiency ? percent(row.efficiency_ci()) : "-",
+          shown(row.played_min),
+          shown(row.kicks_per_min())};
+}
+
+const std::vector<std::string> kCountHead = {"inside",      "outside", "unknown",       "efficiency",
+                                             "Wilson 95 %", "minutes", "kicks a minute"};
+
 ReportPart table2_part(const Report& report) {
   ReportPart part{report.arms.empty() ? "Table 2: kicks by policy" : "Table 2: kicks by arm",
                   {head_of(report, kCountHead)},
@@ -52,8 +66,7 @@ ReportPart table2_part(const Report& report) {
   for (const PolicyRow& row : report.policies) {
     inside.push_back({kicking::printable(name_of(row)), row.inside_kicks});  // its lines are taken apart
     blocked_apart = blocked_apart || row.blocked_apart;
-    part.table.push_back(who_of(report, row));
-    append(part.table.back(), count_cells(row, "-"));
+    append(part.table.emplace_back(who_of(report, row)), count_cells(row));
   }
   add_lines(part.notes, inside_lines(inside));
   if (report.arms.size() > 1)
@@ -70,9 +83,13 @@ ReportPart table2_part(const Report& report) {
 }
 
 ReportPart goals_part(const Report& report) {
-  ReportPart part{"Goals: inside, and no keeper stopped them", {head_of(report, kGoalHead)}, {}};
+  ReportPart part{"Goals: inside, and no keeper stopped them",
+                  {head_of(report, {"inside", "goals", "saved", "not known", "goals a minute"})},
+                  {}};
   for (const PolicyRow& row : report.policies) {
-    append(part.table.emplace_back(who_of(report, row)), goal_cells(row, "-"));
+    append(part.table.emplace_back(who_of(report, row)),
+           {shown(row.inside()), shown(row.goals()), shown(row.saved()), shown(row.goal_not_known()),
+            shown(row.per_min(row.goals()))});
   }
   return part;
 }
@@ -83,7 +100,7 @@ ReportPart by_robot_part(const Report& report) {
   for (const RobotRow& row : report.robots) {
     part.table.push_back(who_of(report, row));
     part.table.back().insert(part.table.back().begin(), shown(row.robot_id));
-    append(part.table.back(), count_cells(row, "-"));
+    append(part.table.back(), count_cells(row));
   }
   part.notes.emplace_back("minutes: of play, in the possessions in which the robot had the ball");
   return part;
@@ -151,17 +168,18 @@ ReportPart kickers_part(const Report& report) {
   return part;
 }
 
+bool has_kicks(const Report& report) {
+  return std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.kicks() > 0; });
+}
+
 // Nobody counts the sightings of somebody who watched a video.
 bool imported_alone(const Report& report) { return report.imports.size() == report.sessions.size(); }
 
 void add_lost_rows(ReportPart& part, const Report& report) {
   if (report.rows_missing() == 0) return part.notes.emplace_back("lost: nothing"), void();
-  part.table = {{"lost", "received", "lost on the bus", "gaps", "queue full", "not a number", "rejected", "late"}};
-  for (const log::Loss& loss : report.losses) {
-    if (loss.missing() == 0) continue;
-    part.table.push_back({loss.stream, shown(loss.received), shown(loss.lost), shown(loss.gaps), shown(loss.overflow),
-                          shown(loss.nan_refused), shown(loss.rejected), shown(loss.out_of_order)});
-  }
+  std::vector<log::Loss> missing;
+  std::ranges::copy_if(report.losses, std::back_inserter(missing), [](const auto& loss) { return loss.missing() > 0; });
+  part.table = loss_table(missing);
 }
 
 void add_bounds(std::vector<std::string>& notes, const PolicyRow& row) {
@@ -201,20 +219,13 @@ ReportPart quality_part(const Report& report) {
 
 }  // namespace
 
-std::vector<std::string> count_cells(const PolicyRow& row, const std::string& none) {
-  const auto efficiency = stats::efficiency(row.counts());
-  return {shown(row.inside()),
-          shown(row.outside()),
-          shown(row.unknown()),
-          efficiency ? percent(*efficiency) : none,
-          efficiency ? percent(row.efficiency_ci()) : none,
-          shown(row.played_min, none),
-          shown(row.kicks_per_min(), none)};
-}
-
-std::vector<std::string> goal_cells(const PolicyRow& row, const std::string& none) {
-  return {shown(row.inside()), shown(row.goals()), shown(row.saved()), shown(row.goal_not_known()),
-          shown(row.per_min(row.goals()), none)};
+std::vector<std::vector<std::string>> loss_table(std::span<const log::Loss> losses) {
+  std::vector<std::vector<std::string>> table{
+      {"lost", "received", "lost on the bus", "gaps", "queue full", "not a number", "rejected", "late"}};
+  for (const log::Loss& loss : losses)
+    table.push_back({loss.stream, shown(loss.received), shown(loss.lost), shown(loss.gaps), shown(loss.overflow),
+                     shown(loss.nan_refused), shown(loss.rejected), shown(loss.out_of_order)});
+  return table;
 }
 
 std::string line_of(const UnclosedKick& kick) {
@@ -239,16 +250,23 @@ std::string name_of(const PolicyRow& row) {
   return row.arm.starts_with(row.policy) ? row.arm : fmt::format("{}/{}", row.arm, row.policy);
 }
 
+std::vector<ReportPart> kick_parts(const Report& report) {
+  std::vector<ReportPart> parts{table2_part(report)};
+  if (!has_kicks(report)) {
+    parts.back().notes.emplace_back("there are no kicks");
+    return parts;
+  }
+  if (report.keeper()) parts.push_back(goals_part(report));
+  if (!report.robots.empty()) parts.push_back(by_robot_part(report));
+  parts.push_back(misses_part(report));
+  return parts;
+}
+
 ReportParts parts_of(const Report& report) {
-  ReportParts result{heading_of(report), {table2_part(report)}, next_comparison(report)};
-  if (std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.kicks() > 0; })) {
-    if (report.keeper()) result.parts.push_back(goals_part(report));
-    if (!report.robots.empty()) result.parts.push_back(by_robot_part(report));
-    result.parts.push_back(misses_part(report));
+  ReportParts result{heading_of(report), kick_parts(report), next_comparison(report)};
+  if (has_kicks(report)) {
     if (!imported_alone(report)) result.parts.push_back(label_quality_part(report.labels));
     if (!report.kickers.empty()) result.parts.push_back(kickers_part(report));
-  } else {
-    result.parts.back().notes.emplace_back("there are no kicks");
   }
   result.parts.push_back(quality_part(report));
   if (!report.gates.empty()) {

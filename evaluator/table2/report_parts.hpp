@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,11 @@ struct ReportParts {
 
 ReportParts parts_of(const Report& report);
 
-/// What stands in kCountHead of a row, and in kGoalHead; `none` where there is no such number.
-inline const std::vector<std::string> kCountHead = {"inside",      "outside", "unknown",       "efficiency",
-                                                    "Wilson 95 %", "minutes", "kicks a minute"};
-std::vector<std::string> count_cells(const PolicyRow& row, const std::string& none);
-inline const std::vector<std::string> kGoalHead = {"inside", "goals", "saved", "not known", "goals a minute"};
-std::vector<std::string> goal_cells(const PolicyRow& row, const std::string& none);
+/// Those on kicks: Table 2, goals, robots, why the misses missed.
+std::vector<ReportPart> kick_parts(const Report& report);
+
+/// Losses of streams, below a head.
+std::vector<std::vector<std::string>> loss_table(std::span<const log::Loss> losses);
 
 /// "unclosed kick 7 of robot 1 at 3.20 s (moving): no receipt outcome".
 std::string line_of(const UnclosedKick& kick);
