@@ -2,10 +2,8 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <ctime>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "calibration/scanner_session.hpp"

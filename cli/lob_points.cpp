@@ -75,13 +75,12 @@ std::optional<std::string> wrong_stamps(const std::vector<ForegroundReturn>& ret
     if (passed_s <= 0.0)
       return fmt::format(
           "time goes back by {:.6g} s from scan {} to {}: did the scanner's clock start over? Add to t_scan_start_s "
-          "and "
-          "t_beam_s from there on what it lost",
+          "and t_beam_s from there on what it lost",
           -passed_s, before->first, after->first);
     if (std::abs(pace_s(*before, *after) - usual_s) > 0.5 * usual_s)
       return fmt::format(
-          "{:.4g} s pass from scan {} to {}, where {:.3g} s pass from scan to scan: t_scan_start_s jumps, "
-          "or scan does not count all scans",
+          "{:.4g} s pass from scan {} to {}, where {:.3g} s pass from scan to scan: t_scan_start_s jumps, or scan does "
+          "not count all scans",
           passed_s, before->first, after->first, usual_s);
   }
   for (const ForegroundReturn& seen : returns)

@@ -115,10 +115,9 @@ void refuse_oracle(const config::KickDecision& decision) {
   for (const auto& policies : {decision.policy_by_half, decision.policy_by_robot, decision.random}) {
     const auto who = std::ranges::find_if(policies, [](auto policy) { return facts(policy).needs_truth(); });
     if (who == policies.end()) continue;
-    throw UsageError{
-        fmt::format("the policy {} needs the simulator's true state, which is not on the bus: play it with "
-                    "trivela simulate",
-                    kicking::name(*who))};
+    throw UsageError{fmt::format(
+        "the policy {} needs the simulator's true state, which is not on the bus: play it with trivela simulate",
+        kicking::name(*who))};
   }
 }
 
@@ -215,8 +214,8 @@ void add_play_flags(CLI::App& verb, MatchFlags& flags) {
       ->check(between(0.01, 1000.0));
   add_default(verb, "--seed", flags.seed, "same seed, same match", seeds());
   add_default(verb, "--devices", flags.devices,
-              "sim: on the bus, as fast as the nodes answer; emulated: the kicker's board (hal.kicker, "
-              "else an ioBoard) at a line and a referee box on TCP, in real time",
+              "sim: on the bus, as fast as the nodes answer; emulated: the kicker's board (hal.kicker, else an "
+              "ioBoard) at a line and a referee box on TCP, in real time",
               CLI::IsMember({"sim", kEmulated}));
 }
 
@@ -234,21 +233,18 @@ void add_match(CLI::App& app, int& exit_code) {
   add_default(*verb, "--log-level", flags->log_level, "of the nodes",
               CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
   auto* secure =
-      verb->add_option(
-              "--secure", flags->keys,
-              "every node with the keys of this folder (trivela keys; ./keys where it is named like a verb), in which "
-              "simulator has some; without a folder, with keys that go with the match")
+      verb->add_option("--secure", flags->keys,
+                       "every node with the keys of this folder (trivela keys; ./keys where it is named like a verb), "
+                       "in which simulator has some; without a folder, with keys that go with the match")
           ->expected(0, 1);
   auto* watch = verb->add_flag("--watch", flags->watch,
                                "serve a live page of the match, which stays until Ctrl-C, and print its address");
-  auto* pace =
-      verb->add_option(
-              "--pace", flags->pace,
-              "with --watch: seconds of play a second, at most; 0: as fast as the nodes answer. The rows are the "
-              "same at every pace")
-          ->check(between(0.0, 1000.0))
-          ->needs(watch)
-          ->capture_default_str();
+  auto* pace = verb->add_option("--pace", flags->pace,
+                                "with --watch: seconds of play a second, at most; 0: as fast as the nodes answer. The "
+                                "rows are the same at every pace")
+                   ->check(between(0.0, 1000.0))
+                   ->needs(watch)
+                   ->capture_default_str();
   for (CLI::Option* option : add_watch_flags(*verb, flags->page)) option->needs(watch);
   verb->callback(
       [flags, secure, pace, &exit_code] { exit_code = play(*flags, secure->count() > 0, pace->count() > 0); });

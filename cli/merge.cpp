@@ -95,14 +95,13 @@ void add_merge(CLI::App& app, int& exit_code) {
       "that the robots measured. Of a damaged file what can be read is taken; one that is no match log is refused. No "
       "file is changed. Ends with\n"
       "\"missing: nothing\", or with what is missing and exit code 3, as where two files say different things of a "
-      "kick. Shards of an experiment (trivela simulate "
-      "--shard)\n"
+      "kick. Shards of an experiment (trivela simulate --shard)\n"
       "become the log that one run writes; a shard that lacks, is not finished or of another experiment is refused.");
   verb->add_option("out", arguments->out, "The new log, must not exist")->required();
   verb->add_option("logs", arguments->logs, "Match logs, merged ones, too")->required();
-  verb->add_option("--reference", arguments->reference_robot,
-                   "Robot by whose clock times are aligned, 0: the base's; without: the one that most were measured "
-                   "against")
+  verb->add_option(
+          "--reference", arguments->reference_robot,
+          "Robot by whose clock times are aligned, 0: the base's; without: the one that most were measured against")
       ->check(CLI::Range(0, 255));
 }
 

@@ -57,10 +57,9 @@ void add_monitor(CLI::App& app, int& exit_code) {
   add_default(*verb, "--config", flags->config, "whose [domain], field and rules are looked at", readable_file());
   verb->add_option("--domain", flags->domain, "DDS domain instead of the configuration's")->check(CLI::Range(0, 100));
   verb->add_option("--tag", flags->tag, "discovery tag instead of the configuration's");
-  verb->add_option(
-          "--dds", flags->dds,
-          "Cyclone's configuration of the bus instead, such as a team_bus.xml of trivela team: the bus between "
-          "the machines, in the domain that --team says")
+  verb->add_option("--dds", flags->dds,
+                   "Cyclone's configuration of the bus instead, such as a team_bus.xml of trivela team: the bus "
+                   "between the machines, in the domain that --team says")
       ->check(readable_file());
   verb->add_option("--team", flags->team, "team.toml that names team and robots")->check(readable_file());
   verb->add_option("--secure", flags->keys, "folder of the team's keys with a monitor's in robot_N (trivela keys)")

@@ -10,9 +10,7 @@
 #include <cstring>
 #include <exception>
 #include <optional>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include "cli/launch/progress_bar.hpp"
 #include "cli/manual/manual.hpp"

@@ -126,10 +126,9 @@ void add_top(CLI::App& app, int& exit_code) {
   add_default(*verb, "--config", flags->config, "whose [domain] is looked at", readable_file());
   verb->add_option("--domain", flags->domain, "DDS domain instead of the configuration's")->check(CLI::Range(0, 100));
   verb->add_option("--tag", flags->tag, "discovery tag instead of the configuration's");
-  verb->add_option(
-          "--dds", flags->dds,
-          "Cyclone's configuration of the bus instead, such as a team_bus.xml of trivela team: the bus between "
-          "the machines, in the domain that --team says")
+  verb->add_option("--dds", flags->dds,
+                   "Cyclone's configuration of the bus instead, such as a team_bus.xml of trivela team: the bus "
+                   "between the machines, in the domain that --team says")
       ->check(readable_file());
   verb->add_option("--team", flags->team,
                    "team.toml that says domain and tag: this machine's own bus, with --robot that robot's, else the "

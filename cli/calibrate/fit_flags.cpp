@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
-#include "calibration/rows/trials.hpp"
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/options/output.hpp"
 #include "evaluator/render/json_values.hpp"
 
 namespace trivela::cli {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <filesystem>
 
 #include "calibration/rows/kick_flights.hpp"
@@ -67,12 +66,11 @@ int calibrate_from_log(const FromLogFlags& flags) {
       calibration::flights_in({flags.logs.begin(), flags.logs.end()}, flags.robot_id, file.delay_s);
   const kicking::KickerEstimate estimate = learned(seen.flights, file, settings.self_calibration.change);
   if (estimate.kicks < kFewest) {
-    fmt::print(
-        stderr,
-        "trivela: robot {} has {} kicks in {} log(s), of which {} were seen to fly, {} are needed; kicks of robot(s): "
-        "{}. Nothing is written\n",
-        flags.robot_id, seen.kicks, flags.logs.size(), estimate.kicks, kFewest,
-        seen.robots.empty() ? "none" : fmt::format("{}", fmt::join(seen.robots, ", ")));
+    fmt::print(stderr,
+               "trivela: robot {} has {} kicks in {} log(s), of which {} were seen to fly, {} are needed; kicks of "
+               "robot(s): {}. Nothing is written\n",
+               flags.robot_id, seen.kicks, flags.logs.size(), estimate.kicks, kFewest,
+               seen.robots.empty() ? "none" : fmt::format("{}", fmt::join(seen.robots, ", ")));
     return kFailed;
   }
   std::vector<std::string> files;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <map>
-#include <memory>
 
 #include "calibration/rows/trials.hpp"
 #include "cli/calibrate/fit_flags.hpp"

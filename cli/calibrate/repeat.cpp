@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <thread>
@@ -153,8 +152,7 @@ void add_calibrate_repeat(CLI::App& calibrate_verb, int& exit_code) {
                "how sure one calibration is: many of them, beside the world's truth", repeat_study);
   verb->footer(
       "Plays calibrations of `trivela calibrate run --in simulation` in process, one a seed, and compares their "
-      "figures "
-      "with\n"
+      "figures with\n"
       "the simulated world's: error, standard error, share of the 95 % intervals that contain the truth; and how much "
       "the\n"
       "policy moving differs between the robots. No fit sees the world's truth.");

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -17,14 +16,12 @@
 
 #include "bus/domain/participant.hpp"
 #include "bus/reader.hpp"
-#include "calibration/drive_source.hpp"
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/hardware/device_locks.hpp"
 #include "cli/launch/child_process.hpp"
 #include "cli/launch/config_file.hpp"
 #include "cli/launch/record_match.hpp"
 #include "cli/options/output.hpp"
-#include "config/settings.hpp"
 #include "emulators/refbox/emulated_box.hpp"
 #include "idl/messages.hpp"
 #include "kicking/geometry/time.hpp"

@@ -142,12 +142,10 @@ void add_compare(CLI::App& app, int& exit_code) {
   verb->add_option("--counts", arguments->counts, "NAME=INSIDE/KICKS twice, the older first: old=34/65 new=100/132");
   verb->add_option("--by", arguments->by,
                    "What is compared: policy, table, robot, arm or log; of a CSV any column (arm where a log has "
-                   "several, else policy, "
-                   "or log where there is one policy)");
-  verb->add_option(
-      "--stratify", arguments->stratify,
-      "Compare within situations: distance, or start_distance, robot, half, scenario, table, policy, arm, log of "
-      "a log, any column of a CSV");
+                   "several, else policy, or log where there is one policy)");
+  verb->add_option("--stratify", arguments->stratify,
+                   "Compare within situations: distance, or start_distance, robot, half, scenario, table, policy, arm, "
+                   "log of a log, any column of a CSV");
   verb->add_option("--baseline", arguments->baseline, "The group that the others are compared with (the first)");
   verb->add_option("--design", arguments->design, "How the groups came about, where the data do not say it")
       ->check(CLI::IsMember({"before_after", "alternating", "randomised", "paired"}));

@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "cli/emulate/devices.hpp"
 #include "cli/launch/signal_inbox.hpp"

@@ -3,8 +3,6 @@
 #include <chrono>
 #include <memory>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "config/settings.hpp"
 #include "hal/open.hpp"

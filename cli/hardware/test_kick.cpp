@@ -6,7 +6,6 @@
 #include <chrono>
 #include <optional>
 #include <stdexcept>
-#include <string>
 
 #include "cli/hardware/device_probes.hpp"
 #include "cli/options/output.hpp"

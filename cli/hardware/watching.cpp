@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdio>
 #include <set>
-#include <string>
 
 #include "cli/launch/terminal.hpp"
 #include "cli/options/output.hpp"

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -68,8 +67,7 @@ void set_outcome(KickLabel& kick, const std::string& word) {
     if (!outcome || word == "on_target") {
       throw CellError(
           "outcome", word,
-          "is none of goal, saved, inside, outside, unknown, wide_left, wide_right, over, short, post, bar, "
-          "blocked");
+          "is none of goal, saved, inside, outside, unknown, wide_left, wide_right, over, short, post, bar, blocked");
     }
     kick.outcome = *outcome;
     kick.outside = *outcome != msg::OUTCOME_UNKNOWN;

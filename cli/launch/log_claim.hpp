@@ -8,7 +8,6 @@
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
-#include <string>
 
 #include "cli/verbs.hpp"
 

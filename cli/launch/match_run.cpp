@@ -11,7 +11,6 @@
 #include <deque>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "cli/launch/child_process.hpp"
 #include "cli/launch/progress_bar.hpp"

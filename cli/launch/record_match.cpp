@@ -7,15 +7,11 @@
 #include <filesystem>
 #include <optional>
 #include <random>
-#include <string>
 
 #include "cli/launch/config_file.hpp"
-#include "cli/launch/log_claim.hpp"
-#include "cli/launch/match_run.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "cli/watch/watch_page.hpp"
 #include "log/read/reader.hpp"
 #include "nodes/runtime/node_flags.hpp"
 

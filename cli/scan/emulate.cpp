@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <cmath>
-#include <memory>
 
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/options/output.hpp"

@@ -77,11 +77,10 @@ int record_scans(const std::filesystem::path& out, const std::string& device, co
   if (session.simulated) fmt::print("{}\n", kSyntheticNotice);
   if (counters.error_ranges > 0) fmt::print("{} beams had an error code in place of a range\n", counters.error_ranges);
   if (counters.lost_scans + refused == 0) return kDone;
-  fmt::print(
-      stderr,
-      "trivela: {} scans were lost on the line ({} torn lines, {} wrong sums, opened again {} times) and {} could "
-      "not be recorded\n",
-      counters.lost_scans, counters.torn_lines, counters.wrong_sums, counters.reconnects, refused);
+  fmt::print(stderr,
+             "trivela: {} scans were lost on the line ({} torn lines, {} wrong sums, opened again {} times) and {} "
+             "could not be recorded\n",
+             counters.lost_scans, counters.torn_lines, counters.wrong_sums, counters.reconnects, refused);
   return kDoneWithLoss;
 }
 

@@ -1,8 +1,6 @@
 #include <fmt/core.h>
 #include <fmt/os.h>
 
-#include <cmath>
-
 #include "cli/options/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"

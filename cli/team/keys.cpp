@@ -95,10 +95,9 @@ int revoke_keys(const KeyFlags& flags) {
   for (const std::uint32_t robot_id : flags.robots) {
     if (flags.nodes.empty()) {
       keys.revoke_robot(robot_id, validity);
-      say(
-          fmt::format("robot {}: forgotten; copy the folders of all others, which have another authority of the team's "
-                      "bus\n",
-                      robot_id));
+      say(fmt::format(
+          "robot {}: forgotten; copy the folders of all others, which have another authority of the team's bus\n",
+          robot_id));
       continue;
     }
     for (const std::string& node : flags.nodes) keys.revoke(robot_id, node, validity);
@@ -137,10 +136,9 @@ void add_key_robots(CLI::App* verb, KeyFlags& flags, const char* nodes) {
 }
 
 void add_key_validity(CLI::App* verb, KeyFlags& flags) {
-  auto* days = add_default(*verb, "--days", flags.days,
-                           "how long they hold from now: a tournament's week and a day on "
-                           "each side",
-                           CLI::Range(1, 366));
+  auto* days =
+      add_default(*verb, "--days", flags.days,
+                  "how long they hold from now: a tournament's week and a day on each side", CLI::Range(1, 366));
   auto* from = verb->add_option("--from", flags.from, "first day, e.g. 2026-07-01 (UTC)")->excludes(days);
   auto* to = verb->add_option("--to", flags.to, "last day (UTC)")->needs(from);
   from->needs(to);

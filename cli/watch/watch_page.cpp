@@ -1,7 +1,5 @@
 #include "cli/watch/watch_page.hpp"
 
-#include <fmt/core.h>
-
 #include <cstdio>
 
 #include "cli/options/output.hpp"

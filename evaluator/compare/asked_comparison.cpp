@@ -4,10 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <memory>
-#include <stdexcept>
-
-#include "evaluator/compare/policy_comparison.hpp"
-#include "evaluator/counting/log_kicks.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -5,8 +5,6 @@
 
 #include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/render/json_values.hpp"
-#include "evaluator/stats/bayes.hpp"
-#include "evaluator/stats/counts/exact.hpp"
 #include "evaluator/stats/test_plan.hpp"
 
 namespace trivela::evaluator {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include "evaluator/compare/policy_comparison.hpp"
@@ -39,8 +38,8 @@ std::string groups_table(const PolicyComparison& c) {
   const bool few = std::ranges::any_of(c.groups, [](const GroupResult& g) { return is_few(g.counts()); });
   text += c.groups.front().by_match ? "  95 %: Wilson's, with kicks of one match taken as alike as they were\n"
           : few                     ? fmt::format(
-                                          "  95 %: Wilson's, of fewer than {} kicks no narrower than Clopper and Pearson's; kicks "
-                                                              "taken as independent\n",
+                                          "  95 %: Wilson's, of fewer than {} kicks no narrower than Clopper and Pearson's; kicks taken as "
+                                                              "independent\n",
                                           stats::kEnoughForWilson)
                 : "  95 %: Wilson's, kicks taken as independent\n";
   return text;
@@ -216,8 +215,8 @@ std::string doubts_text(const PairResult& pair, const PolicyComparison& c) {
                                   ? fmt::format(", and {:.1f} labels are expected to be wrong", pair.expected_wrong)
                                   : std::string();
     text +=
-        bullet(fmt::format("{} unknown{}. If all of that went against {}, the crude difference {} would be "
-                           "{:+.1f} points, if all for it {:+.1f}.",
+        bullet(fmt::format("{} unknown{}. If all of that went against {}, the crude difference {} would be {:+.1f} "
+                           "points, if all for it {:+.1f}.",
                            pair.unknown == 1 ? "1 outcome is" : fmt::format("{} outcomes are", pair.unknown), wrong,
                            pair.newer, pair.headline->of_opportunities ? "an opportunity" : "in efficiency",
                            100.0 * pair.bounds.lo, 100.0 * pair.bounds.hi));
@@ -229,11 +228,10 @@ std::string doubts_text(const PairResult& pair, const PolicyComparison& c) {
         clustered->calibrations, clustered->calibrations));
   }
   if (!pair.headline->by_match) {
-    text +=
-        bullet(c.dataset.has_matches ? "Fewer than five matches a side: nothing can be said about how alike kicks of "
-                                       "one match are, and the intervals take kicks as independent."
-                                     : "Which kick belongs to which match is not known: the intervals take kicks as "
-                                       "independent, so the truth is less certain.");
+    text += bullet(c.dataset.has_matches ? "Fewer than five matches a side: nothing can be said about how alike kicks "
+                                           "of one match are, and the intervals take kicks as independent."
+                                         : "Which kick belongs to which match is not known: the intervals take kicks "
+                                           "as independent, so the truth is less certain.");
   }
   return text;
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <ctime>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "evaluator/render/json_values.hpp"

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace trivela::evaluator {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <cctype>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "evaluator/imports/worldstate_check.hpp"
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 
 #include "evaluator/mcap/cdr.hpp"
 #include "evaluator/mcap/mcap_writer.hpp"

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -86,12 +85,11 @@ std::vector<std::string> cost_sentences(const std::vector<HeldChance>& chances) 
   std::vector<std::string> sentences;
   for (const auto& [policy, cost] : costs) {
     if (cost.predicted == 0) continue;
-    sentences.push_back(fmt::format(
-        "What holding cost, by the model: in {} in which {} kicked nothing a policy that rode along would have kicked; "
-        "in "
-        "{} of them it predicted how likely its kick was on target, and the best predictions add up to {:.1f} shots on "
-        "target.",
-        counted(cost.would, "chance", "chances"), policy, cost.predicted, cost.on_target));
+    sentences.push_back(
+        fmt::format("What holding cost, by the model: in {} in which {} kicked nothing a policy that rode along would "
+                    "have kicked; in {} of them it predicted how likely its kick was on target, and the best "
+                    "predictions add up to {:.1f} shots on target.",
+                    counted(cost.would, "chance", "chances"), policy, cost.predicted, cost.on_target));
   }
   if (!sentences.empty())
     sentences.emplace_back(
@@ -117,8 +115,7 @@ std::string held_section(const PageView& view) {
   body += paragraphs(
       {view.data.shadows.empty()
            ? "No other policy rode along."
-           : "A shadow policy judges the same cycle and orders nothing. It would have kicked once and held "
-             "no more: "
+           : "A shadow policy judges the same cycle and orders nothing. It would have kicked once and held no more: "
              "where it would have kicked is counted by possession. What its kick would have become nobody knows."});
   return section("held", title, body);
 }

@@ -112,17 +112,16 @@ std::string kick_list_section(const PageView& view) {
   const auto& kicks = view.data.kicks;
   if (kicks.empty()) return section("list", "Kicks", paragraphs({"There are no kicks."}));
   if (view.data.binned()) {
-    return section("list", "Kicks",
-                   paragraphs({fmt::format("{} kicks are too many for a list: a page lists up to {}. trivela query LOG "
-                                           "--metric listed_kicks --csv has them all, "
-                                           "and a report of one match has its replays.",
-                                           kicks.size(), kMostKicks)}));
+    return section(
+        "list", "Kicks",
+        paragraphs({fmt::format("{} kicks are too many for a list: a page lists up to {}. trivela query LOG --metric "
+                                "listed_kicks --csv has them all, and a report of one match has its replays.",
+                                kicks.size(), kMostKicks)}));
   }
   const bool replays = kicks.size() <= kMostReplays;
   std::vector<std::string> notes{
       "x is to the right of the goal's middle, z the height of the ball's centre, both where it crosses the goal line. "
-      "A time like +12.30 s "
-      "stands where a simulated clock knows no UTC."};
+      "A time like +12.30 s stands where a simulated clock knows no UTC."};
   if (!replays)
     notes.push_back(
         fmt::format("Above {} kicks the list has no replays: a report of one match has them.", kMostReplays));

@@ -10,8 +10,6 @@
 #include <future>
 #include <limits>
 #include <memory>
-#include <set>
-#include <span>
 #include <stdexcept>
 #include <tuple>
 
@@ -191,10 +189,9 @@ void read_predictions(const log::Reader& reader, PageData& data) {
 /// Out of what was counted when a session ended, where it was: a long log is not walked through for four names.
 void read_shadows(const log::Reader& reader, PageData& data) {
   reader.query(
-      "SELECT policy FROM session_tallies WHERE in_charge = 0 "
-      "AND session_id IN (SELECT session_id FROM tallied_sessions) "
-      "UNION SELECT d.policy FROM sessions AS s CROSS JOIN shadow_decisions AS d ON d.session_id = s.session_id "
-      "WHERE s.session_id NOT IN (SELECT session_id FROM tallied_sessions)",
+      "SELECT policy FROM session_tallies WHERE in_charge = 0 AND session_id IN (SELECT session_id FROM "
+      "tallied_sessions) UNION SELECT d.policy FROM sessions AS s CROSS JOIN shadow_decisions AS d ON d.session_id = "
+      "s.session_id WHERE s.session_id NOT IN (SELECT session_id FROM tallied_sessions)",
       [&](const std::string& policy) { data.shadows.push_back(policy); });
 }
 
@@ -214,8 +211,8 @@ void read_clocks(const log::Reader& reader, PageData& data) {
     data.clocks.push_back(row);
   }
   reader.query(
-      "SELECT s.uuid, max(c.error_ns) * 1e-6, min(c.reference_uuid) FROM session_clocks AS c JOIN sessions AS s "
-      "ON s.session_id = c.session_id GROUP BY s.uuid ORDER BY s.uuid",
+      "SELECT s.uuid, max(c.error_ns) * 1e-6, min(c.reference_uuid) FROM session_clocks AS c JOIN sessions AS s ON "
+      "s.session_id = c.session_id GROUP BY s.uuid ORDER BY s.uuid",
       [&](const std::string& uuid, double error_ms, const std::string& reference) {
         data.aligned.push_back({uuid, error_ms, reference});
       });

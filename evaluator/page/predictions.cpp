@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "evaluator/page/figures/figure.hpp"
 #include "evaluator/page/html.hpp"
@@ -163,8 +162,7 @@ std::string reliability_figure(const PageView& view, const std::vector<Predicted
   }
   const std::string note = fmt::format(
       "Kicks in ten bands of the probability that the physical model gave them beforehand. On the diagonal, kicks come "
-      "as often as predicted; "
-      "below it the model promised too much. Over all: {:.1f} of {} predicted, {} came.",
+      "as often as predicted; below it the model promised too much. Over all: {:.1f} of {} predicted, {} came.",
       expected, predictions.size(), inside);
   return figure({id, fmt::format("Predicted probability against the share: {}", what), kFigureHeight, view.simulated},
                 svg, note);

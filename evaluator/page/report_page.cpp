@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <stdexcept>
 
 #include "evaluator/page/html.hpp"
 #include "evaluator/page/page.css.hpp"
@@ -147,8 +146,7 @@ std::string verdict_section(const PageView& view) {
   }
   notes.emplace_back(
       "On target means between the posts and below the bar, saves included: it is not goals scored. An interval of 95 "
-      "% "
-      "is where the true value lies in 95 of 100 such reports, if kicks are alike and nothing else changed.");
+      "% is where the true value lies in 95 of 100 such reports, if kicks are alike and nothing else changed.");
   std::string body = "<div class=\"verdict\">\n" + paragraphs(verdicts) + "</div>\n";
   body += "<div class=\"caveat\">\n" + paragraphs(notes) + "</div>\n";
   return section("verdict", "Verdict", body);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -44,11 +43,10 @@ void find_measured_steps(const log::Reader& reader, std::vector<std::string>& ju
         const double allowed_ns =
             static_cast<double>(error_ns + before.error_ns) + kDrift * static_cast<double>(t_ns - before.t_ns);
         if (step_ns <= allowed_ns) return;
-        jumps.push_back(
-            fmt::format("the clock of {} jumped by {:.3f} s against that of robot {}, between {:.1f} s and "
-                        "{:.1f} s of session {}",
-                        other == 0 ? "the base" : fmt::format("robot {}", other), 1e-9 * step_ns, robot_id,
-                        kicking::seconds(before.t_ns), kicking::seconds(t_ns), session_id));
+        jumps.push_back(fmt::format(
+            "the clock of {} jumped by {:.3f} s against that of robot {}, between {:.1f} s and {:.1f} s of session {}",
+            other == 0 ? "the base" : fmt::format("robot {}", other), 1e-9 * step_ns, robot_id,
+            kicking::seconds(before.t_ns), kicking::seconds(t_ns), session_id));
       });
 }
 

@@ -109,14 +109,13 @@ std::vector<std::string> LearnedKicker::sentences() const {
                                                                   : fmt::format("{} flights are too few", flights)));
   } else if (sound()) {
     say(fmt::format(
-        "its last flights lie as far from it as it says (mean chi-square {:.1f}, expected {:.0f}): it may be "
-        "believed",
+        "its last flights lie as far from it as it says (mean chi-square {:.1f}, expected {:.0f}): it may be believed",
         mean_chi_square(), kResiduals));
   } else {
-    say(fmt::format(
-        "its last flights lie farther from it than it says (mean chi-square {:.1f}, expected {:.0f}): do not "
-        "believe it; look at the goal camera and the labels",
-        mean_chi_square(), kResiduals));
+    say(
+        fmt::format("its last flights lie farther from it than it says (mean chi-square {:.1f}, expected {:.0f}): do "
+                    "not believe it; look at the goal camera and the labels",
+                    mean_chi_square(), kResiduals));
   }
   return lines;
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <tuple>
 
 #include "evaluator/metrics/label_doubt.sql.hpp"

@@ -59,8 +59,7 @@ void look_at_sessions(const log::Reader& reader, Findings& findings) {
   }
   add_finding(findings, "sessions", open,
               "look for the rest: the folder where the recorder went on, /var/lib/trivela, /var/tmp, /dev/shm, other "
-              "robots' logs; then trivela "
-              "merge",
+              "robots' logs; then trivela merge",
               fmt::format("{}, closed", sessions.size()));
 }
 

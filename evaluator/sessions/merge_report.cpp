@@ -25,8 +25,8 @@ struct KickKeys {
 KickKeys kicks_of(const log::Reader& reader) {
   KickKeys kicks;
   reader.query(
-      "SELECT k.session_id, iif(s.match_id IS NULL, 0, s.session_id), k.robot_id, k.kick_id FROM kicks AS k "
-      "JOIN sessions AS s ON s.session_id = k.session_id",
+      "SELECT k.session_id, iif(s.match_id IS NULL, 0, s.session_id), k.robot_id, k.kick_id FROM kicks AS k JOIN "
+      "sessions AS s ON s.session_id = k.session_id",
       [&](std::int64_t session_id, std::int64_t of_experiment, int robot_id, std::int64_t kick_id) {
         kicks.by_session[session_id].emplace(of_experiment, robot_id, kick_id);
       });
@@ -123,8 +123,8 @@ void add_damage(const log::Merged& merged, std::vector<std::string>& lines) {
 
 void add_losses(const log::Reader& reader, const RobotOfSession& robots, std::vector<std::string>& lines) {
   reader.query(
-      "SELECT session_id, stream, max(lost, gaps) + overflow + nan_refused + rejected FROM losses "
-      "WHERE robot_id = 0 AND max(lost, gaps) + overflow + nan_refused + rejected > 0 ORDER BY session_id, stream",
+      "SELECT session_id, stream, max(lost, gaps) + overflow + nan_refused + rejected FROM losses WHERE robot_id = 0 "
+      "AND max(lost, gaps) + overflow + nan_refused + rejected > 0 ORDER BY session_id, stream",
       [&](std::int64_t session_id, const std::string& stream, std::int64_t rows) {
         const auto robot = robots.find(session_id);
         lines.push_back(fmt::format("{}: {} row{} of {} were lost while it was recorded",
@@ -161,16 +161,14 @@ void add_pauses(const log::Merged& merged, const log::Reader& reader, const Robo
 std::int64_t kicks_elsewhere(const log::Reader& reader, const UnrecordedOrders& orders) {
   std::int64_t kicks = 0;
   reader.query(
-      fmt::format("WITH status AS (SELECT session_id, t_ns FROM kicker_status WHERE robot_id = {0}) "
-                  "SELECT count(DISTINCT kick_id) FROM kick_receipts WHERE robot_id = {0} AND accepted = 1 AND "
-                  "session_id <> {1} "
-                  "AND kick_id NOT IN (SELECT kick_id FROM kick_receipts WHERE session_id = {1} AND robot_id = {0}) "
-                  "AND t_ns <= (SELECT max(t_ns) FROM status WHERE session_id = {1}) "
-                  "AND t_ns > coalesce((SELECT max(t_ns) FROM status WHERE session_id = (SELECT p.session_id FROM "
-                  "sessions AS p "
-                  "JOIN sessions AS s ON s.continues_uuid = p.uuid WHERE s.session_id = {1})), "
-                  "(SELECT min(t_ns) FROM status WHERE session_id = {1}))",
-                  orders.robot_id, orders.session_id),
+      fmt::format(
+          "WITH status AS (SELECT session_id, t_ns FROM kicker_status WHERE robot_id = {0}) SELECT count(DISTINCT "
+          "kick_id) FROM kick_receipts WHERE robot_id = {0} AND accepted = 1 AND session_id <> {1} AND kick_id NOT IN "
+          "(SELECT kick_id FROM kick_receipts WHERE session_id = {1} AND robot_id = {0}) AND t_ns <= (SELECT max(t_ns) "
+          "FROM status WHERE session_id = {1}) AND t_ns > coalesce((SELECT max(t_ns) FROM status WHERE session_id = "
+          "(SELECT p.session_id FROM sessions AS p JOIN sessions AS s ON s.continues_uuid = p.uuid WHERE s.session_id "
+          "= {1})), (SELECT min(t_ns) FROM status WHERE session_id = {1}))",
+          orders.robot_id, orders.session_id),
       [&](std::int64_t found) { kicks = found; });
   return kicks;
 }
@@ -185,10 +183,9 @@ void add_missing_kicks(const log::Reader& reader, std::vector<std::string>& line
                                   kicks == 1 ? "kick" : "kicks", kicks == 1 ? "is" : "are"));
     }
     if (orders.continues && orders.restarted_before)
-      lines.push_back(
-          fmt::format("robot {}: its driver was started again while nobody recorded, what it did before "
-                      "that is not known",
-                      orders.robot_id));
+      lines.push_back(fmt::format(
+          "robot {}: its driver was started again while nobody recorded, what it did before that is not known",
+          orders.robot_id));
   }
 }
 

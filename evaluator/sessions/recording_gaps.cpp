@@ -4,13 +4,10 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "evaluator/metrics/silences.sql.hpp"
 #include "evaluator/metrics/unrecorded_orders.sql.hpp"
-#include "kicking/geometry/time.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -1,10 +1,7 @@
 #include "evaluator/sessions/same_match.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <set>
-#include <tuple>
 #include <utility>
 
 namespace trivela::evaluator {

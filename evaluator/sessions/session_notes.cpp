@@ -18,8 +18,7 @@ std::vector<SessionNote> session_notes(const log::Reader& reader) {
   using N = SessionNote;
   auto notes = reader.rows<N>(
       "SELECT n.session_id, coalesce(s.uuid, ''), n.kind, n.utc_ns, n.who, n.text FROM notes AS n LEFT JOIN sessions "
-      "AS "
-      "s ON s.session_id = n.session_id ORDER BY s.started_t_ns, n.session_id, n.kind, n.utc_ns, n.who",
+      "AS s ON s.session_id = n.session_id ORDER BY s.started_t_ns, n.session_id, n.kind, n.utc_ns, n.who",
       &N::session_id, &N::uuid, &N::kind, &N::utc_ns, &N::who, &N::text);
   // From the latest on: what has the last word of its session and kind, and of notes what comes after a withdrawal.
   std::set<std::pair<std::int64_t, std::string>> settled;
@@ -54,8 +53,8 @@ std::string line_of(const SessionNote& note) {
 ImportNotes import_notes_of(const log::Queries& reader) {
   ImportNotes notes;
   reader.query(
-      "SELECT s.session_id, t.text FROM sessions AS s JOIN texts AS t ON t.sha256 = s.config_sha256 "
-      "WHERE s.session_id IN (SELECT session_id FROM imported_sessions) ORDER BY s.session_id",
+      "SELECT s.session_id, t.text FROM sessions AS s JOIN texts AS t ON t.sha256 = s.config_sha256 WHERE s.session_id "
+      "IN (SELECT session_id FROM imported_sessions) ORDER BY s.session_id",
       [&](std::int64_t session_id, const std::string& text) {
         std::istringstream lines(text.substr(log::kImportMark.size()));
         auto& sentences = notes[session_id];

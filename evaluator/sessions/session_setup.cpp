@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <map>
 #include <sstream>
-#include <string>
-#include <string_view>
 
 namespace trivela::evaluator {
 namespace {

@@ -8,9 +8,7 @@
 #include <utility>
 
 #include "evaluator/stats/bias_reduced.hpp"
-#include "evaluator/stats/counts/counts.hpp"
 #include "evaluator/stats/counts/exact.hpp"
-#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

@@ -4,7 +4,6 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
-#include <utility>
 
 namespace trivela::evaluator::stats {
 namespace {

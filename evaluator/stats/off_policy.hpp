@@ -3,9 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <vector>
 
 #include "evaluator/stats/counts/counts.hpp"
 #include "evaluator/stats/counts/interval.hpp"

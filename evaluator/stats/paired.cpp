@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "evaluator/stats/counts/exact.hpp"
-#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

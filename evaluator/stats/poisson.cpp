@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "evaluator/stats/bias_reduced.hpp"

@@ -21,14 +21,15 @@ using Possessions = std::map<std::int64_t, std::pair<int, std::int64_t>>;
 Possessions possessions_of(const log::Reader& reader, std::int64_t session_id, int robot_id) {
   Possessions changes;
   std::optional<std::pair<int, std::int64_t>> last;
-  reader.query(fmt::format("SELECT t_ns, half, possession_id FROM world_states WHERE session_id = {} AND robot_id = {} "
-                           "ORDER BY seq",
-                           session_id, robot_id),
-               [&](std::int64_t t_ns, int half, std::int64_t possession_id) {
-                 if (last == std::pair{half, possession_id}) return;
-                 last = {half, possession_id};
-                 changes[t_ns] = *last;
-               });
+  reader.query(
+      fmt::format(
+          "SELECT t_ns, half, possession_id FROM world_states WHERE session_id = {} AND robot_id = {} ORDER BY seq",
+          session_id, robot_id),
+      [&](std::int64_t t_ns, int half, std::int64_t possession_id) {
+        if (last == std::pair{half, possession_id}) return;
+        last = {half, possession_id};
+        changes[t_ns] = *last;
+      });
   return changes;
 }
 
@@ -40,10 +41,9 @@ template <class F>
 void each_order(const log::Reader& reader, const log::RecordedSession& session, F&& fn) {
   const std::int64_t started_t_ns = session.started_t_ns;
   reader.query(
-      fmt::format(
-          "SELECT robot_id, half, possession_id, t_ns, kick_id & 0xffffffffff AS number, policy, power, p_on_target, "
-          "accepted, label FROM labelled_kicks WHERE session_id = {} ORDER BY robot_id, t_ns",
-          session.session_id),
+      fmt::format("SELECT robot_id, half, possession_id, t_ns, kick_id & 0xffffffffff AS number, policy, power, "
+                  "p_on_target, accepted, label FROM labelled_kicks WHERE session_id = {} ORDER BY robot_id, t_ns",
+                  session.session_id),
       [&](const log::NamedCells& row) {
         const auto t_ns = row.get<std::int64_t>("t_ns");
         const bool refused = row.find<bool>("accepted") == false;
@@ -81,11 +81,10 @@ DecidedAgain beside(const OpenLog& log, const log::RecordedSession& session, con
     ++both.replayed_orders;
     if (!both.replayed) both.replayed = std::move(order);
   });
-  log.reader->query(
-      fmt::format("SELECT count(*) FROM (SELECT DISTINCT robot_id, half, possession_id FROM kick_decisions "
-                  "WHERE session_id = {} AND reason <> 'not_playing')",
-                  session.session_id),
-      [&](std::int64_t count) { again.possessions = count; });
+  log.reader->query(fmt::format("SELECT count(*) FROM (SELECT DISTINCT robot_id, half, possession_id FROM "
+                                "kick_decisions WHERE session_id = {} AND reason <> 'not_playing')",
+                                session.session_id),
+                    [&](std::int64_t count) { again.possessions = count; });
   for (auto& [key, both] : found) again.orders.push_back(std::move(both));
   const auto instant = [](const PossessionOrders& both) {
     return (both.recorded ? both.recorded : both.replayed)->at_s;
@@ -132,8 +131,8 @@ std::vector<std::string> sentences_of(const DecidedAgain& again) {
   return {
       "Open loop: robot, ball, opponents and kicker go on as recorded, whatever the replay orders. No kick of the "
       "replay was made, and none has an outcome.",
-      fmt::format("Of {} possessions with a decision, {} have an order in both: {} in the same cycle, {} earlier "
-                  "in the replay, {} later. {} have one only as recorded, {} only in the replay.",
+      fmt::format("Of {} possessions with a decision, {} have an order in both: {} in the same cycle, {} earlier in "
+                  "the replay, {} later. {} have one only as recorded, {} only in the replay.",
                   again.possessions, same + earlier + later, same, earlier, later, only_recorded, only_replayed)};
 }
 

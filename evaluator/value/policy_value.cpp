@@ -35,8 +35,8 @@ std::string refusal(const LoggedOpportunities& logged, const std::string& policy
   if (counts.empty() && logged.draws_of_halves > 0) {
     return fmt::format(
         "policies were drawn at random, but nobody counted possessions: each of the {} draws held for a whole half, "
-        "and "
-        "what came of it cannot be told from what else the half was; a robot of today counts its own gains of the ball",
+        "and what came of it cannot be told from what else the half was; a robot of today counts its own gains of the "
+        "ball",
         logged.draws_of_halves);
   }
   if (counts.empty()) {
@@ -59,11 +59,10 @@ constexpr const char* kWrongWeights =
 
 std::string value_sentence(const PolicyValueReport& r) {
   const stats::OffPolicy& v = r.value;
-  return wrapped(
-      fmt::format("{} would have had a shot on target in {} of these opportunities, 95 % {} (doubly robust); "
-                  "as they were played it was {}.",
-                  r.policy, percent(v.doubly_robust.value), percent(v.doubly_robust.ci), percent(v.logged)),
-      "  ");
+  return wrapped(fmt::format("{} would have had a shot on target in {} of these opportunities, 95 % {} (doubly "
+                             "robust); as they were played it was {}.",
+                             r.policy, percent(v.doubly_robust.value), percent(v.doubly_robust.ci), percent(v.logged)),
+                 "  ");
 }
 
 Json value_json(const stats::PolicyValue& value) {

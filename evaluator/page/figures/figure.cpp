@@ -7,7 +7,6 @@
 
 #include "evaluator/page/html.hpp"
 #include "evaluator/render/simulated.hpp"
-#include "evaluator/render/svg_chart.hpp"
 #include "kicking/text/printable.hpp"
 
 namespace trivela::evaluator::page {

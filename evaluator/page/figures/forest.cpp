@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <tuple>
 
 #include "evaluator/page/figures/figure.hpp"
 #include "evaluator/page/html.hpp"

@@ -5,10 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
-#include <utility>
 #include <vector>
-
-#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

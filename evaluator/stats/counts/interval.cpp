@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluator/stats/counts/counts.hpp"
-
 namespace trivela::evaluator::stats {
 namespace {
 

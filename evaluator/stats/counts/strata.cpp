@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluator/stats/counts/counts.hpp"
-#include "evaluator/stats/counts/interval.hpp"
-
 namespace trivela::evaluator::stats {
 namespace {
 
