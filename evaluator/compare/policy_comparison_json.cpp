@@ -69,14 +69,15 @@ Json test_json(const std::optional<stats::ChiSquare>& test) {
 
 Json stratified_json(const std::optional<Stratified>& s) {
   if (!s) return {};
-  Json json = {
-      {"column", s->column}, {"unit", s->of_opportunities ? "opportunity" : "kick"}, {"strata", Json::array()}};
-  for (const StratumResult& row : s->strata) {
-    json["strata"].push_back({{"name", row.name},
-                              {"old", inside_of_n(row.counts.older)},
-                              {"new", inside_of_n(row.counts.newer)},
-                              {"reversed", row.reversed}});
-  }
+  const auto stratum_json = [](const StratumResult& row) {
+    return Json{{"name", row.name},
+                {"old", inside_of_n(row.counts.older)},
+                {"new", inside_of_n(row.counts.newer)},
+                {"reversed", row.reversed}};
+  };
+  Json json = {{"column", s->column},
+               {"unit", s->of_opportunities ? "opportunity" : "kick"},
+               {"strata", json_list(s->strata, stratum_json)}};
   json["left_out"] = s->left_out;
   json["mh_odds_ratio"] = s->odds_ratio ? Json(s->odds_ratio->value) : Json();
   json["mh_odds_ratio_ci95"] = s->odds_ratio ? json_of(s->odds_ratio->ci) : Json();
@@ -145,24 +146,22 @@ Json pair_json(const PairResult& pair, const PolicyComparison& c) {
   return json;
 }
 
+Json pairs_json(const PolicyComparison& c) {
+  return json_list(c.pairs, [&](const PairResult& pair) { return pair_json(pair, c); });
+}
+
 Json between_json(const std::vector<BetweenLogs>& between) {
-  Json json = Json::array();
-  for (const BetweenLogs& group : between) {
-    Json row = {{"group", group.group},
+  return json_list(between, [](const BetweenLogs& group) {
+    return Json{{"group", group.group},
                 {"why_none", group.comparison ? Json() : Json(group.why_none)},
-                {"comparisons", Json::array()}};
-    if (group.comparison) {
-      for (const PairResult& pair : group.comparison->pairs)
-        row["comparisons"].push_back(pair_json(pair, *group.comparison));
-    }
-    json.push_back(std::move(row));
-  }
-  return json;
+                {"comparisons", group.comparison ? pairs_json(*group.comparison) : Json::array()}};
+  });
 }
 
 }  // namespace
 
 std::string to_json(const PolicyComparison& c) {
+  const auto group = [&](const GroupResult& of) { return group_json(of, c.dataset.keeper, c.dataset.blocked_apart); };
   Json json = {{"by", c.by},
                {"simulated", c.dataset.simulated},
                {"outcome", c.dataset.outcome},
@@ -170,15 +169,12 @@ std::string to_json(const PolicyComparison& c) {
                {"design_reason", c.dataset.design_reason},
                {"smallest_effect", c.smallest_effect},
                {"sample_ratio_p", json_of(c.sample_ratio_p)},
-               {"groups", Json::array()},
-               {"comparisons", Json::array()},
+               {"groups", json_list(c.groups, group)},
+               {"comparisons", pairs_json(c)},
                {"remarks", c.dataset.remarks},
                {"logs", c.logs},
                {"differences", differences_json(c.differences, c.logs)}};
   if (!c.between.empty()) json["between_logs"] = between_json(c.between);
-  for (const GroupResult& group : c.groups)
-    json["groups"].push_back(group_json(group, c.dataset.keeper, c.dataset.blocked_apart));
-  for (const PairResult& pair : c.pairs) json["comparisons"].push_back(pair_json(pair, c));
   if (!c.gates.empty()) json["gates"] = gates_json(c.gates);
   return json_text(json);
 }

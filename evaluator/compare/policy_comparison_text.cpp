@@ -9,7 +9,7 @@
 namespace trivela::evaluator {
 namespace {
 
-using Table = std::vector<std::vector<std::string>>;
+using Rows = std::vector<std::vector<std::string>>;
 
 std::string whole(std::int64_t n) { return std::to_string(n); }
 
@@ -23,7 +23,7 @@ bool is_few(stats::Counts counts) { return counts.n > 0 && counts.n < stats::kEn
 std::string share_ci(stats::Counts counts, stats::Interval ci) { return counts.n > 0 ? percent(ci) : "-"; }
 
 std::string groups_table(const PolicyComparison& c) {
-  Table table = {{c.by, "inside", "outside", "unknown", "efficiency", "95 %", "matches"}};
+  Rows table = {{c.by, "inside", "outside", "unknown", "efficiency", "95 %", "matches"}};
   for (const GroupResult& g : c.groups) {
     table.push_back({g.name, whole(g.inside()), whole(g.outside()), whole(g.unknown()), share(g.counts()),
                      share_ci(g.counts(), g.efficiency_ci),
@@ -51,8 +51,8 @@ std::string volume_table(const PolicyComparison& c) {
   if (!c.dataset.has_opportunities && !minutes) {
     return "\nVolume\n  neither opportunities nor minutes of play are known: how often each kicked cannot be said\n";
   }
-  Table table = {{c.by, "opportunities", "kicks", "kicks an opp.", "on target an opp.", "95 %", "minutes",
-                  "kicks a min.", "on target a min."}};
+  Rows table = {{c.by, "opportunities", "kicks", "kicks an opp.", "on target an opp.", "95 %", "minutes",
+                 "kicks a min.", "on target a min."}};
   for (const GroupResult& g : c.groups) {
     const auto per_minute = [&](std::int64_t n) {
       const auto rate = g.per_min(n);
@@ -84,7 +84,7 @@ std::string inside_text(const PolicyComparison& c) {
   std::string text = inside_lines(groups);
   if (!text.empty()) text = "\nOf the balls inside\n" + text;
   if (!c.dataset.keeper) return text;
-  Table table = {{c.by, "inside", "goals", "not known", "goals an opp.", "95 %"}};
+  Rows table = {{c.by, "inside", "goals", "not known", "goals an opp.", "95 %"}};
   for (const GroupResult& g : c.groups) {
     const stats::Counts goals{g.goals(), g.opportunities};
     table.push_back({g.name, whole(g.inside()), whole(g.goals()), whole(g.goal_not_known()),
@@ -118,7 +118,7 @@ std::string rate_line(const std::string& name, const std::optional<stats::RateRa
 }
 
 std::string strata_table(const PairResult& pair, const Stratified& s) {
-  Table table = {{s.column, pair.older, "", pair.newer, "", "difference"}};
+  Rows table = {{s.column, pair.older, "", pair.newer, "", "difference"}};
   for (const StratumResult& row : s.strata) {
     const stats::Counts older = row.counts.older, newer = row.counts.newer;
     const bool both = older.n > 0 && newer.n > 0;

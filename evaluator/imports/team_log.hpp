@@ -53,7 +53,7 @@ TeamLog read_team_log(std::istream& in, const std::string& file);
 /// Of the game time between records, without pauses. None: it never moves.
 std::optional<double> record_rate_hz(const TeamLog& log);
 
-/// What the league asks of a team, and what is called slower: 5 % below it.
-inline constexpr double kLeagueRate_hz = 10.0, kSlowRate_hz = 9.5;
+/// Slower than the league asks of a team, 10 a second, by more than 5 %.
+inline constexpr double kSlowRate_hz = 9.5;
 
 }  // namespace trivela::evaluator::imports

@@ -20,7 +20,7 @@ std::string missing(const Report& report) {
   body += list_of(silence_lines(report.silences)) + list_of(order_lines(report.unrecorded_orders)) +
           list_of(cut_short_lines(report.lengths));
   if (report.losses.empty()) return body;
-  std::vector<Cells> rows = loss_table(report.losses);
+  std::vector<Cells> rows = texts_of(loss_table(report.losses));
   rows.front().front() = "stream";
   return body + details("By stream", table("Rows by stream", rows));
 }

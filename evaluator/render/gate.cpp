@@ -176,16 +176,14 @@ GateResult judged(const Gate& gate, std::vector<Measured> measured) {
 }
 
 Json gates_json(std::span<const GateResult> gates) {
-  Json all = Json::array();
-  for (const GateResult& gate : gates) {
-    Json measured = Json::array();
-    for (const Measured& of : gate.measured)
-      measured.push_back({{"name", of.name.empty() ? Json() : Json(of.name)},
-                          {"value", json_of(of.value)},
-                          {"why", of.value ? Json() : Json(of.why)}});
-    all.push_back({{"gate", gate.gate}, {"met", gate.met}, {"measured", measured}});
-  }
-  return all;
+  const auto measured_json = [](const Measured& of) {
+    return Json{{"name", of.name.empty() ? Json() : Json(of.name)},
+                {"value", json_of(of.value)},
+                {"why", of.value ? Json() : Json(of.why)}};
+  };
+  return json_list(gates, [&](const GateResult& gate) {
+    return Json{{"gate", gate.gate}, {"met", gate.met}, {"measured", json_list(gate.measured, measured_json)}};
+  });
 }
 
 std::string GateResult::sentence() const {

@@ -22,6 +22,14 @@ Json json_of(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
+/// A value for each of them, as `of` makes it.
+template <class Rows, class Of>
+Json json_list(const Rows& rows, const Of& of) {
+  Json list = Json::array();
+  for (const auto& row : rows) list.push_back(of(row));
+  return list;
+}
+
 /// [lo, hi].
 inline Json json_of(stats::Interval interval) { return Json::array({interval.lo, interval.hi}); }
 

@@ -61,6 +61,25 @@ std::string axes(const Chart& chart, const Axis& x, const Axis& y) {
   return svg;
 }
 
+// After Okabe and Ito (2008), darkened where white paper, lightened where a dark screen would swallow them.
+constexpr std::array<std::pair<const char*, const char*>, 8> kColours{{{"#0072b2", "#4da3e0"},
+                                                                       {"#d55e00", "#ff7f32"},
+                                                                       {"#009e73", "#2cc79b"},
+                                                                       {"#b8588f", "#e6a8cb"},
+                                                                       {"#a87800", "#e6b422"},
+                                                                       {"#2f93d1", "#9ad4f7"},
+                                                                       {"#222222", "#eeeeee"},
+                                                                       {"#7a5c3a", "#c8a57a"}}};
+constexpr std::array<const char*, 4> kDashes{"none", "7 4", "2 4", "10 3 2 3"};
+
+std::string svg_class(const ChartSeries& series) {
+  const auto colours = static_cast<int>(kColours.size());
+  std::string style = fmt::format("c{}", series.colour % colours);
+  if (series.colour >= colours) style += " thin";
+  if (const int dash = series.dash % static_cast<int>(kDashes.size()); dash > 0) style += fmt::format(" d{}", dash);
+  return style;
+}
+
 std::string marks(const ChartSeries& series, const std::vector<ChartPoint>& pixels) {
   const std::string style = svg_class(series);
   if (series.mark == ChartMark::kDots) {
@@ -91,17 +110,6 @@ std::string legend(const Chart& chart, double x0) {
   }
   return svg;
 }
-
-// After Okabe and Ito (2008), darkened where white paper, lightened where a dark screen would swallow them.
-constexpr std::array<std::pair<const char*, const char*>, 8> kColours{{{"#0072b2", "#4da3e0"},
-                                                                       {"#d55e00", "#ff7f32"},
-                                                                       {"#009e73", "#2cc79b"},
-                                                                       {"#b8588f", "#e6a8cb"},
-                                                                       {"#a87800", "#e6b422"},
-                                                                       {"#2f93d1", "#9ad4f7"},
-                                                                       {"#222222", "#eeeeee"},
-                                                                       {"#7a5c3a", "#c8a57a"}}};
-constexpr std::array<const char*, 4> kDashes{"none", "7 4", "2 4", "10 3 2 3"};
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -187,14 +195,6 @@ std::string svg_head(double width, double height, const std::string& title, cons
       "height=\"{1:.0f}\">\n<title>{2}</title>\n<style>\n{3}{4}</style>\n"
       "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n",
       width, height, escaped(title), style(), more_style);
-}
-
-std::string svg_class(const ChartSeries& series) {
-  const auto colours = static_cast<int>(kColours.size());
-  std::string style = fmt::format("c{}", series.colour % colours);
-  if (series.colour >= colours) style += " thin";
-  if (const int dash = series.dash % static_cast<int>(kDashes.size()); dash > 0) style += fmt::format(" d{}", dash);
-  return style;
 }
 
 std::string svg_text(double x, double y, const char* anchor, const std::string& words, const std::string& more) {

@@ -62,9 +62,6 @@ std::string tick_text(double value);
 /// for dark readers, `more_style` behind it.
 std::string svg_head(double width, double height, const std::string& title, const std::string& more_style = "");
 
-/// Classes of a series' marks in the style sheet.
-std::string svg_class(const ChartSeries& series);
-
 // Marks, places in pixels. `anchor`: start, middle, end; `more`: further attributes, with a blank in front.
 std::string svg_text(double x, double y, const char* anchor, const std::string& words, const std::string& more = "");
 std::string svg_line(const std::string& kind, double x1, double y1, double x2, double y2);

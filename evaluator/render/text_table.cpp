@@ -75,6 +75,26 @@ std::string text_table(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
+std::string markdown_table(const std::vector<std::vector<std::string>>& rows) {
+  std::string text;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (const std::string& cell : rows[i]) text += fmt::format("| {} ", markdown_text(cell));
+    text += "|\n";
+    for (std::size_t j = 0; i == 0 && j < rows[i].size(); ++j) text += j == 0 ? "|:---" : "|---:";
+    if (i == 0) text += "|\n";
+  }
+  return text;
+}
+
+std::string latex_table(const std::vector<std::vector<std::string>>& rows) {
+  std::string text = fmt::format("\\begin{{tabular}}{{l{}}}\n\\hline\n", std::string(rows.front().size() - 1, 'r'));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < rows[i].size(); ++j) text += (j == 0 ? "" : " & ") + latex_text(rows[i][j]);
+    text += i == 0 ? " \\\\\n\\hline\n" : " \\\\\n";
+  }
+  return text + "\\hline\n\\end{tabular}\n\n";
+}
+
 std::string percent(double fraction) { return fmt::format("{:.1f} %", 100.0 * fraction); }
 
 std::string percent(stats::Interval fractions) {

@@ -12,6 +12,10 @@ namespace trivela::evaluator {
 /// The first row is the head. Each line is indented by two blanks and ends with a newline.
 std::string text_table(const std::vector<std::vector<std::string>>& rows);
 
+/// The same table as Markdown (GitHub's), and as LaTeX in a `tabular`; cells are harmless in either.
+std::string markdown_table(const std::vector<std::vector<std::string>>& rows);
+std::string latex_table(const std::vector<std::vector<std::string>>& rows);
+
 /// "52.3 %".
 std::string percent(double fraction);
 

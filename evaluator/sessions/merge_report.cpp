@@ -189,6 +189,19 @@ void add_missing_kicks(const log::Reader& reader, std::vector<std::string>& line
   }
 }
 
+std::vector<std::string> merge_gaps(const log::Merged& merged, const log::Reader& reader) {
+  const RobotOfSession robots = robots_of(merged);
+  std::vector<std::string> lines;
+  add_damage(merged, lines);
+  add_losses(reader, robots, lines);
+  std::vector<RecordedSilence> silences = silences_of(reader);
+  std::erase_if(silences, [](const RecordedSilence& silence) { return !silence.counts; });
+  for (std::string& line : silence_lines(silences)) lines.push_back(std::move(line));
+  add_pauses(merged, reader, robots, lines);
+  add_missing_kicks(reader, lines);
+  return lines;
+}
+
 }  // namespace
 
 MergeReport report_merge(const log::Merged& merged, log::Reader&& reader) {
@@ -213,18 +226,5 @@ MergeReport report_merge(const log::Merged& merged, log::Reader&& reader) {
 }
 
 std::string participant(int robot_id) { return robot_id == 0 ? "the base" : fmt::format("robot {}", robot_id); }
-
-std::vector<std::string> merge_gaps(const log::Merged& merged, const log::Reader& reader) {
-  const RobotOfSession robots = robots_of(merged);
-  std::vector<std::string> lines;
-  add_damage(merged, lines);
-  add_losses(reader, robots, lines);
-  std::vector<RecordedSilence> silences = silences_of(reader);
-  std::erase_if(silences, [](const RecordedSilence& silence) { return !silence.counts; });
-  for (std::string& line : silence_lines(silences)) lines.push_back(std::move(line));
-  add_pauses(merged, reader, robots, lines);
-  add_missing_kicks(reader, lines);
-  return lines;
-}
 
 }  // namespace trivela::evaluator

@@ -78,7 +78,6 @@ DecidedAgain beside(const OpenLog& log, const log::RecordedSession& session, con
     auto then = of_robot->second.upper_bound(t_ns);
     if (then != of_robot->second.begin()) std::tie(std::get<1>(key), std::get<2>(key)) = (--then)->second;
     PossessionOrders& both = place(key);
-    ++both.replayed_orders;
     if (!both.replayed) both.replayed = std::move(order);
   });
   log.reader->query(fmt::format("SELECT count(*) FROM (SELECT DISTINCT robot_id, half, possession_id FROM "

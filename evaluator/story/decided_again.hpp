@@ -26,7 +26,6 @@ struct PossessionOrders {
   std::int64_t possession_id = 0;
   std::optional<PossessionOrder> recorded;  ///< the first order that was not refused, else the first one
   std::optional<PossessionOrder> replayed;  ///< the first order
-  std::int64_t replayed_orders = 0;         ///< in it; after the first one, none of them could have been
 };
 
 /// A match and a replay of it.

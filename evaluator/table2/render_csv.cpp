@@ -5,7 +5,7 @@
 
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/sessions/no_goal.hpp"
-#include "evaluator/table2/table2.hpp"
+#include "evaluator/table2/report_parts.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -68,26 +68,25 @@ std::string csv_quality_lines(const Report& report) {
   const auto add = [&](const char* row, const std::string& name, const auto& value) {
     text += csv_number_line(row, name, csv_cell(value));
   };
-  for (const SightingsRow& row : report.labels.rows) {
-    add("sightings", row.sightings + ": kicks", row.kicks);
-    add("sightings", row.sightings + ": unknown", row.unknown);
-    if (report.labels.has_probabilities) add("sightings", row.sightings + ": expected_wrong", row.expected_wrong);
-  }
-  for (const log::Loss& loss : report.losses) {
-    for (const auto& [name, n] : {std::pair{"received", loss.received}, std::pair{"missing", loss.missing()},
-                                  std::pair{"lost", loss.lost}, std::pair{"gaps", loss.gaps},
-                                  std::pair{"overflow", loss.overflow}, std::pair{"nan_refused", loss.nan_refused},
-                                  std::pair{"rejected", loss.rejected}, std::pair{"out_of_order", loss.out_of_order}})
-      add("stream", fmt::format("{}: {}", loss.stream, name), n);
-  }
+  // Its numbers, named by the first cell of their row and by their column.
+  const auto add_table = [&](const char* part, const Table& table) {
+    for (const auto& row : table.rows) {
+      for (std::size_t i = 1; i < row.size(); ++i) {
+        const Json &of = row.front(), &value = row[i];
+        const std::string name =
+            fmt::format("{}: {}", of.is_string() ? of.get<std::string>() : of.dump(), table.columns[i].key);
+        if (value.is_number_float()) add(part, name, value.get<double>());
+        if (value.is_number_integer()) add(part, name, value.get<std::int64_t>());
+      }
+    }
+  };
+  add_table("sightings", sightings_table(report.labels));
+  add_table("stream", loss_table(report.losses));
   for (const RefusedOrders& refused : report.refused_orders)
     add("refused_orders", fmt::format("{}: {}", refused.policy, refused.refusal), refused.orders);
   for (const RefusedOrders& refused : report.refused_orders)
     add("orders_not_fired", fmt::format("{}: {}", refused.policy, refused.refusal), refused.not_fired);
-  for (const PlayedLength& length : report.lengths) {
-    add("length", fmt::format("{}: planned_s", length.session_id), length.planned_s);
-    add("length", fmt::format("{}: recorded_s", length.session_id), length.recorded_s);
-  }
+  add_table("length", length_table(report.lengths));
   const auto size = [](const auto& list) { return static_cast<std::int64_t>(list.size()); };
   add("quality", "sessions", size(report.sessions));
   add("quality", "rows_missing", report.rows_missing());

@@ -1,6 +1,8 @@
+#include <algorithm>
+
 #include "evaluator/render/json_values.hpp"
 #include "evaluator/sessions/no_goal.hpp"
-#include "evaluator/table2/table2.hpp"
+#include "evaluator/table2/report_parts.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -32,10 +34,9 @@ Json policy_json(const PolicyRow& row) {
 }
 
 Json policies_json(const std::vector<log::HalfPolicy>& halves) {
-  Json policies = Json::array();
-  for (const log::HalfPolicy& half : halves)
-    policies.push_back({{"half", half.half}, {"policy", half.policy}, {"robot_id", half.robot_id}});
-  return policies;
+  return json_list(halves, [](const log::HalfPolicy& half) {
+    return Json{{"half", half.half}, {"policy", half.policy}, {"robot_id", half.robot_id}};
+  });
 }
 
 Json session_json(const log::RecordedSession& session, const ImportNotes& imports) {
@@ -66,18 +67,6 @@ Json arm_json(const Arm& arm) {
           {"sessions", arm.sessions},
           {"matches", arm.matches},
           {"policies", policies_json(arm.policies)}};
-}
-
-Json loss_json(const log::Loss& loss) {
-  return {{"stream", loss.stream},
-          {"received", loss.received},
-          {"missing", loss.missing()},
-          {"lost", loss.lost},
-          {"gaps", loss.gaps},
-          {"overflow", loss.overflow},
-          {"nan_refused", loss.nan_refused},
-          {"rejected", loss.rejected},
-          {"out_of_order", loss.out_of_order}};
 }
 
 Json silence_json(const RecordedSilence& silence) {
@@ -118,17 +107,6 @@ Json kicker_json(const LearnedKicker& kicker) {
           {"sideways_ratio", part(last.sideways)}};
 }
 
-Json labels_json(const LabelQuality& labels, const std::vector<std::string>& goal_warnings) {
-  Json rows = Json::array();
-  for (const SightingsRow& row : labels.rows) {
-    rows.push_back({{"sightings", row.sightings},
-                    {"kicks", row.kicks},
-                    {"unknown", row.unknown},
-                    {"expected_wrong", labels.has_probabilities ? Json(row.expected_wrong) : Json()}});
-  }
-  return {{"by_sightings", rows}, {"goal_warnings", goal_warnings}};
-}
-
 Json unclosed_json(const UnclosedKick& kick) {
   return {{"session_id", kick.session_id},   {"robot_id", kick.robot_id},
           {"kick_id", kick.kick_id},         {"t_ns", kick.t_ns},
@@ -136,37 +114,28 @@ Json unclosed_json(const UnclosedKick& kick) {
           {"has_receipt", kick.has_receipt}, {"has_outcome", kick.has_outcome}};
 }
 
+Json refused_json(const RefusedOrders& refused) {
+  return {{"policy", refused.policy},
+          {"refusal", refused.refusal},
+          {"orders", refused.orders},
+          {"not_fired", refused.not_fired}};
+}
+
 Json quality_json(const Report& report) {
-  Json quality = {{"data_lost", report.data_lost()},
-                  {"rows_missing", report.rows_missing()},
-                  {"unclosed_sessions", report.unclosed_sessions()},
-                  {"warnings", report.warnings},
-                  {"streams", Json::array()},
-                  {"unclosed_kicks", Json::array()},
-                  {"refused_orders", Json::array()},
-                  {"silences", Json::array()},
-                  {"unrecorded_orders", Json::array()}};
-  for (const log::Loss& loss : report.losses) quality["streams"].push_back(loss_json(loss));
-  for (const UnclosedKick& kick : report.unclosed_kicks) quality["unclosed_kicks"].push_back(unclosed_json(kick));
-  for (const RefusedOrders& refused : report.refused_orders) {
-    quality["refused_orders"].push_back({{"policy", refused.policy},
-                                         {"refusal", refused.refusal},
-                                         {"orders", refused.orders},
-                                         {"not_fired", refused.not_fired}});
-  }
-  quality["not_counted"] = report.not_counted;
-  quality["lengths"] = Json::array();
-  for (const PlayedLength& length : report.lengths) {
-    quality["lengths"].push_back({{"session_id", length.session_id},
-                                  {"planned_s", length.planned_s},
-                                  {"recorded_s", length.recorded_s},
-                                  {"cut_short", length.cut_short()}});
-  }
-  for (const RecordedSilence& silence : report.silences) quality["silences"].push_back(silence_json(silence));
-  for (const UnrecordedOrders& orders : report.unrecorded_orders) {
-    quality["unrecorded_orders"].push_back(unrecorded_json(orders));
-  }
-  quality["labels"] = labels_json(report.labels, report.goal_warnings);
+  Json quality = {
+      {"data_lost", report.data_lost()},
+      {"rows_missing", report.rows_missing()},
+      {"unclosed_sessions", report.unclosed_sessions()},
+      {"warnings", report.warnings},
+      {"streams", rows_json(loss_table(report.losses))},
+      {"unclosed_kicks", json_list(report.unclosed_kicks, unclosed_json)},
+      {"refused_orders", json_list(report.refused_orders, refused_json)},
+      {"silences", json_list(report.silences, silence_json)},
+      {"unrecorded_orders", json_list(report.unrecorded_orders, unrecorded_json)},
+      {"not_counted", report.not_counted},
+      {"lengths", rows_json(length_table(report.lengths))},
+      {"labels",
+       {{"by_sightings", rows_json(sightings_table(report.labels))}, {"goal_warnings", report.goal_warnings}}}};
   quality["hand_labels"] = {{"kicks", report.hand_labels.kicks},
                             {"compared", report.hand_labels.compared},
                             {"disagreed", report.hand_labels.disagreed},
@@ -182,24 +151,24 @@ Json quality_json(const Report& report) {
 }  // namespace
 
 std::string to_json(const Report& report) {
-  Json json = {{"simulated", report.simulated_sessions() > 0}, {"logs", report.logs}, {"policies", Json::array()}};
-  for (const PolicyRow& row : report.policies) json["policies"].push_back(policy_json(row));
-  json["robots"] = Json::array();
-  for (const RobotRow& row : report.robots) {
-    json["robots"].push_back(policy_json(row));
-    json["robots"].back()["robot_id"] = row.robot_id;
-  }
-  json["sessions"] = Json::array();
-  for (const auto& session : report.sessions) {
-    if (!session.arm) json["sessions"].push_back(session_json(session, report.imports));
-  }
-  json["arms"] = Json::array();
-  for (const Arm& arm : report.arms) json["arms"].push_back(arm_json(arm));
-  json["said"] = Json::array();
-  for (const SessionNote& note : report.notes)
-    json["said"].push_back({{"kind", note.kind}, {"text", *note.text}, {"who", note.who}, {"utc_ns", note.utc_ns}});
-  json["kickers"] = Json::array();
-  for (const LearnedKicker& kicker : report.kickers) json["kickers"].push_back(kicker_json(kicker));
+  std::vector<log::RecordedSession> sessions;
+  std::ranges::copy_if(report.sessions, std::back_inserter(sessions), [](const auto& of) { return !of.arm; });
+  const auto robot_json = [](const RobotRow& row) {
+    Json json = policy_json(row);
+    json["robot_id"] = row.robot_id;
+    return json;
+  };
+  const auto note_json = [](const SessionNote& note) {
+    return Json{{"kind", note.kind}, {"text", *note.text}, {"who", note.who}, {"utc_ns", note.utc_ns}};
+  };
+  Json json = {{"simulated", report.simulated_sessions() > 0},
+               {"logs", report.logs},
+               {"policies", json_list(report.policies, policy_json)},
+               {"robots", json_list(report.robots, robot_json)},
+               {"sessions", json_list(sessions, [&](const auto& of) { return session_json(of, report.imports); })},
+               {"arms", json_list(report.arms, arm_json)},
+               {"said", json_list(report.notes, note_json)},
+               {"kickers", json_list(report.kickers, kicker_json)}};
   json["data_quality"] = quality_json(report);
   if (!report.gates.empty()) json["gates"] = gates_json(report.gates);
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",

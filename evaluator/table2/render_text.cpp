@@ -7,31 +7,6 @@
 namespace trivela::evaluator {
 namespace {
 
-void markdown_row(std::string& text, const std::vector<std::string>& cells) {
-  for (const std::string& cell : cells) text += fmt::format("| {} ", markdown_text(cell));
-  text += "|\n";
-}
-
-void markdown_table(std::string& text, const std::vector<std::vector<std::string>>& table) {
-  markdown_row(text, table.front());
-  for (std::size_t i = 0; i < table.front().size(); ++i) text += i == 0 ? "|:---" : "|---:";
-  text += "|\n";
-  for (std::size_t i = 1; i < table.size(); ++i) markdown_row(text, table[i]);
-}
-
-void latex_row(std::string& text, const std::vector<std::string>& cells) {
-  for (std::size_t i = 0; i < cells.size(); ++i) text += (i == 0 ? "" : " & ") + latex_text(cells[i]);
-  text += " \\\\\n";
-}
-
-void latex_table(std::string& text, const std::vector<std::vector<std::string>>& table) {
-  text += fmt::format("\\begin{{tabular}}{{l{}}}\n\\hline\n", std::string(table.front().size() - 1, 'r'));
-  latex_row(text, table.front());
-  text += "\\hline\n";
-  for (std::size_t i = 1; i < table.size(); ++i) latex_row(text, table[i]);
-  text += "\\hline\n\\end{tabular}\n\n";
-}
-
 // No list without an item: LaTeX refuses it.
 void latex_list(std::string& text, const std::vector<std::string>& lines) {
   if (lines.empty()) return;
@@ -64,7 +39,7 @@ std::string to_markdown(const Report& report) {
                         markdown_text(line.substr(line.find_first_not_of(' '))));
   for (const ReportPart& part : parts.parts) {
     text += fmt::format("\n## {}\n\n", markdown_text(part.title));
-    if (!part.table.empty()) markdown_table(text, part.table);
+    if (!part.table.empty()) text += markdown_table(part.table);
     if (!part.table.empty() && !part.notes.empty()) text += "\n";
     for (const std::string& note : part.notes) text += fmt::format("- {}\n", markdown_text(note));
   }
@@ -77,7 +52,7 @@ std::string to_latex(const Report& report) {
   latex_list(text, parts.heading);
   for (const ReportPart& part : parts.parts) {
     text += fmt::format("\n\\subsection*{{{}}}\n", latex_text(part.title));
-    if (!part.table.empty()) latex_table(text, part.table);
+    if (!part.table.empty()) text += latex_table(part.table);
     latex_list(text, part.notes);
   }
   return parts.last.empty() ? text : fmt::format("{}\n{}\n", text, latex_text(parts.last));

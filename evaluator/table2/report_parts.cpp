@@ -128,13 +128,9 @@ ReportPart misses_part(const Report& report) {
 }
 
 ReportPart label_quality_part(const LabelQuality& labels) {
-  ReportPart part{
-      "Outcomes by sightings of the flight", {{"sightings", "kicks", "unknown", "labels expected wrong"}}, {}};
-  for (const SightingsRow& row : labels.rows) {
-    if (row.kicks == 0) continue;
-    part.table.push_back({row.sightings, shown(row.kicks), shown(row.unknown),
-                          labels.has_probabilities ? fmt::format("{:.2f}", row.expected_wrong) : "-"});
-  }
+  Table table = sightings_table(labels);
+  std::erase_if(table.rows, [](const auto& row) { return row[1] == 0; });
+  ReportPart part{"Outcomes by sightings of the flight", texts_of(table), {}};
   if (!labels.has_probabilities) part.notes.emplace_back("the labels came without their probabilities");
   return part;
 }
@@ -179,7 +175,7 @@ void add_lost_rows(ReportPart& part, const Report& report) {
   if (report.rows_missing() == 0) return part.notes.emplace_back("lost: nothing"), void();
   std::vector<log::Loss> missing;
   std::ranges::copy_if(report.losses, std::back_inserter(missing), [](const auto& loss) { return loss.missing() > 0; });
-  part.table = loss_table(missing);
+  part.table = texts_of(loss_table(missing));
 }
 
 void add_bounds(std::vector<std::string>& notes, const PolicyRow& row) {
@@ -219,12 +215,37 @@ ReportPart quality_part(const Report& report) {
 
 }  // namespace
 
-std::vector<std::vector<std::string>> loss_table(std::span<const log::Loss> losses) {
-  std::vector<std::vector<std::string>> table{
-      {"lost", "received", "lost on the bus", "gaps", "queue full", "not a number", "rejected", "late"}};
+Table loss_table(std::span<const log::Loss> losses) {
+  Table table{{{"stream", "lost"},
+               {"received", "received"},
+               {"missing", "", ""},
+               {"lost", "lost on the bus"},
+               {"gaps", "gaps"},
+               {"overflow", "queue full"},
+               {"nan_refused", "not a number"},
+               {"rejected", "rejected"},
+               {"out_of_order", "late"}}};
   for (const log::Loss& loss : losses)
-    table.push_back({loss.stream, shown(loss.received), shown(loss.lost), shown(loss.gaps), shown(loss.overflow),
-                     shown(loss.nan_refused), shown(loss.rejected), shown(loss.out_of_order)});
+    table.rows.push_back({loss.stream, loss.received, loss.missing(), loss.lost, loss.gaps, loss.overflow,
+                          loss.nan_refused, loss.rejected, loss.out_of_order});
+  return table;
+}
+
+Table sightings_table(const LabelQuality& labels) {
+  Table table{{{"sightings", "sightings"},
+               {"kicks", "kicks"},
+               {"unknown", "unknown"},
+               {"expected_wrong", "labels expected wrong", "{:.2f}"}}};
+  for (const SightingsRow& row : labels.rows)
+    table.rows.push_back(
+        {row.sightings, row.kicks, row.unknown, labels.has_probabilities ? Json(row.expected_wrong) : Json()});
+  return table;
+}
+
+Table length_table(std::span<const PlayedLength> lengths) {
+  Table table{{{"session_id"}, {"planned_s"}, {"recorded_s"}, {"cut_short"}}};
+  for (const PlayedLength& of : lengths)
+    table.rows.push_back({of.session_id, of.planned_s, of.recorded_s, of.cut_short()});
   return table;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluator/render/table.hpp"
 #include "evaluator/table2/table2.hpp"
 
 namespace trivela::evaluator {
@@ -28,8 +29,10 @@ ReportParts parts_of(const Report& report);
 /// Those on kicks: Table 2, goals, robots, why the misses missed.
 std::vector<ReportPart> kick_parts(const Report& report);
 
-/// Losses of streams, below a head.
-std::vector<std::vector<std::string>> loss_table(std::span<const log::Loss> losses);
+// Tables that every form has.
+Table loss_table(std::span<const log::Loss> losses);
+Table sightings_table(const LabelQuality& labels);
+Table length_table(std::span<const PlayedLength> lengths);
 
 /// "unclosed kick 7 of robot 1 at 3.20 s (moving): no receipt outcome".
 std::string line_of(const UnclosedKick& kick);
