@@ -1,4 +1,3 @@
-#include "cli/calibrate/subcommands.hpp"
 #include "cli/verbs.hpp"
 
 namespace trivela::cli {

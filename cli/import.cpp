@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/import/match_rows.hpp"
-#include "cli/import/refbox_report.hpp"
+#include "cli/import/refbox.hpp"
 #include "cli/launch/log_claim.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"

@@ -1,3 +1,3 @@
-#include "cli/run/verbs.hpp"
+#include "cli/program.hpp"
 
 int main(int argc, char** argv) { return trivela::cli::run_verbs(argc, argv); }

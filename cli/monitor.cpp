@@ -3,24 +3,16 @@
 #include <string>
 
 #include "cli/launch/signal_inbox.hpp"
-#include "cli/options/number_checks.hpp"
+#include "cli/options/bus.hpp"
 #include "cli/team/valid_team.hpp"
 #include "cli/verbs.hpp"
 #include "cli/watch/watch_page.hpp"
 #include "config/robot.hpp"
-#include "config/text/installation.hpp"
-#include "nodes/runtime/node_flags.hpp"
 
 namespace trivela::cli {
 namespace {
 
-struct MonitorFlags {
-  std::string config = config::shipped("default.toml").string();
-  std::optional<std::uint32_t> domain;
-  std::string tag;
-  std::string dds;
-  std::string team;
-  std::string keys;
+struct MonitorFlags : BusFlags {
   WatchFlags watch;
 };
 
@@ -37,9 +29,7 @@ int serve_monitor(const MonitorFlags& flags) {
   config::Settings settings = config::load_settings(flags.config);
   pages::SceneSettings scene = scene_settings(settings);
   if (!flags.team.empty()) look_at_team(flags, settings, scene);
-  if (flags.domain) settings.domain.domain_id = *flags.domain;
-  if (!flags.tag.empty()) settings.domain.tag = flags.tag;
-  if (!flags.dds.empty()) settings.domain.dds_file = flags.dds;
+  flags.set(settings.domain);
   SignalInbox signals;  // before all threads, which must not take them
   const WatchPage page{flags.watch, settings, flags.keys, std::move(scene)};
   while (!signals.stop_requested_within(-1)) continue;
@@ -54,16 +44,7 @@ void add_monitor(CLI::App& app, int& exit_code) {
   verb->footer(
       "It listens and writes nothing on the bus, and the page answers no request but GET: nothing of it can order "
       "anything.\nPrints the page's address and serves it until Ctrl-C.");
-  add_default(*verb, "--config", flags->config, "whose [domain], field and rules are looked at", readable_file());
-  verb->add_option("--domain", flags->domain, "DDS domain instead of the configuration's")->check(CLI::Range(0, 100));
-  verb->add_option("--tag", flags->tag, "discovery tag instead of the configuration's");
-  verb->add_option("--dds", flags->dds,
-                   "Cyclone's configuration of the bus instead, such as a team_bus.xml of trivela team: the bus "
-                   "between the machines, in the domain that --team says")
-      ->check(readable_file());
-  verb->add_option("--team", flags->team, "team.toml that names team and robots")->check(readable_file());
-  verb->add_option("--secure", flags->keys, "folder of the team's keys with a monitor's in robot_N (trivela keys)")
-      ->envname(nodes::kKeysVariable);
+  add_bus_flags(*verb, *flags, "whose [domain], field and rules are looked at", "team.toml that names team and robots");
   add_watch_flags(*verb, flags->watch);
 }
 

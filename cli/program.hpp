@@ -25,4 +25,7 @@ struct ProgramInfo {
 /// Runs the verb that the command line names, and says what goes wrong on standard error. Returns the exit code.
 int run_program(const ProgramInfo& program, int argc, char** argv);
 
+/// The program `trivela`: runs the verb that the command line names. Returns the exit code.
+int run_verbs(int argc, char** argv);
+
 }  // namespace trivela::cli

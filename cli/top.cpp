@@ -9,6 +9,7 @@
 
 #include "bus/stop.hpp"
 #include "cli/launch/terminal.hpp"
+#include "cli/options/bus.hpp"
 #include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
 #include "cli/team/valid_team.hpp"
@@ -16,20 +17,12 @@
 #include "cli/verbs.hpp"
 #include "config/settings.hpp"
 #include "config/team/team_settings.hpp"
-#include "config/text/installation.hpp"
-#include "nodes/runtime/node_flags.hpp"
 #include "nodes/runtime/node_main.hpp"
 
 namespace trivela::cli {
 namespace {
 
-struct TopFlags {
-  std::string config = config::shipped("default.toml").string();
-  std::optional<std::uint32_t> domain;
-  std::string tag;
-  std::string dds;
-  std::string team;
-  std::string keys;
+struct TopFlags : BusFlags {
   std::optional<int> robot;
   bool once = false;
   bool json = false;
@@ -77,9 +70,7 @@ config::Settings looked_at(const TopFlags& flags) {
   config::Settings settings = config::load_settings(flags.config);
   if (flags.robot) settings.run.robot_id = static_cast<std::uint32_t>(*flags.robot);
   if (!flags.team.empty()) look_at_team(flags, settings);
-  if (flags.domain) settings.domain.domain_id = *flags.domain;
-  if (!flags.tag.empty()) settings.domain.tag = flags.tag;
-  if (!flags.dds.empty()) settings.domain.dds_file = flags.dds;
+  flags.set(settings.domain);
   return settings;
 }
 
@@ -123,19 +114,9 @@ void add_top(CLI::App& app, int& exit_code) {
       "table, or a line of JSON, each interval. Latency is from the writer's source timestamp to reception, age from "
       "the\n"
       "message's t_ns; late counts three periods without a sample.");
-  add_default(*verb, "--config", flags->config, "whose [domain] is looked at", readable_file());
-  verb->add_option("--domain", flags->domain, "DDS domain instead of the configuration's")->check(CLI::Range(0, 100));
-  verb->add_option("--tag", flags->tag, "discovery tag instead of the configuration's");
-  verb->add_option("--dds", flags->dds,
-                   "Cyclone's configuration of the bus instead, such as a team_bus.xml of trivela team: the bus "
-                   "between the machines, in the domain that --team says")
-      ->check(readable_file());
-  verb->add_option("--team", flags->team,
-                   "team.toml that says domain and tag: this machine's own bus, with --robot that robot's, else the "
-                   "base's; with --dds the domain between the machines")
-      ->check(readable_file());
-  verb->add_option("--secure", flags->keys, "folder of the team's keys with a monitor's in robot_N (trivela keys)")
-      ->envname(nodes::kKeysVariable);
+  add_bus_flags(*verb, *flags, "whose [domain] is looked at",
+                "team.toml that says domain and tag: this machine's own bus, with --robot that robot's, else the "
+                "base's; with --dds the domain between the machines");
   verb->add_option("--robot", flags->robot, "this robot's samples and writers only")->check(CLI::Range(1, 255));
   verb->add_flag("--once", flags->once, "show one interval and end");
   verb->add_flag("--json", flags->json, "JSON, a line an interval");

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "cli/calibrate/fit_flags.hpp"
-#include "cli/calibrate/subcommands.hpp"
 #include "cli/options/number_checks.hpp"
+#include "cli/verbs.hpp"
+#include "evaluator/render/table.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "kicking/alignment/deflection.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -39,6 +40,7 @@ class Deflection {
         fit_(kicking::fit_deflection(kicks_.rows,
                                      !flags.delay_s && robot ? std::optional(robot->model.delay_s) : flags.delay_s)) {}
 
+  evaluator::Table table() const;
   Json to_json() const;
   std::string to_text() const;
   std::vector<std::string> warnings() const;
@@ -79,6 +81,21 @@ std::vector<std::string> Deflection::warnings() const {
   return all;
 }
 
+evaluator::Table Deflection::table() const {
+  evaluator::Table table{{{"vx_mps", "vx [m/s]", "{:.2f}"},
+                          {"d_m", "d [m]", "{:.2f}"},
+                          {"b_m", "b [m]", "{:.3f}"},
+                          {"alpha_deg", "alpha [deg]", "{:.3f}"},
+                          {"line_residual_deg", "- line [deg]", "{:+.3f}"},
+                          {"physical_residual_deg", "- physical [deg]", "{:+.3f}"}}};
+  for (std::size_t i = 0; i < kicks_.rows.size(); ++i) {
+    const kicking::DeflectionRow& row = kicks_.rows[i];
+    table.rows.push_back({row.vx_mps, row.distance_m, row.b_m, degrees(fit_.alpha_rad[i]),
+                          degrees(fit_.line.residuals[i]), degrees(fit_.travel_residual_rad[i])});
+  }
+  return table;
+}
+
 Json Deflection::to_json() const {
   Json json{{"kicks", fit_.alpha_rad.size()},
             {"line",
@@ -91,35 +108,17 @@ Json Deflection::to_json() const {
               {"rms_deg", degrees(fit_.travel_rms_rad)},
               {"rms_m", fit_.travel.rms}}},
             {"transfer", nullptr},
-            {"rows", Json::array()}};
+            {"rows", evaluator::rows_json(table())}};
   if (fit_.lateral) {
     json["transfer"] = {{"lateral_ratio", fit_.lateral->slope.value},
                         {"lateral_ratio_se", fit_.lateral->slope.se},
                         {"rms_m", fit_.lateral->rms}};
   }
-  for (std::size_t i = 0; i < kicks_.rows.size(); ++i) {
-    const kicking::DeflectionRow& row = kicks_.rows[i];
-    json["rows"].push_back({{"vx_mps", row.vx_mps},
-                            {"d_m", row.distance_m},
-                            {"b_m", row.b_m},
-                            {"alpha_deg", degrees(fit_.alpha_rad[i])},
-                            {"line_residual_deg", degrees(fit_.line.residuals[i])},
-                            {"physical_residual_deg", degrees(fit_.travel_residual_rad[i])}});
-  }
   return json;
 }
 
 std::string Deflection::to_text() const {
-  std::vector<std::vector<std::string>> lines{
-      {"vx [m/s]", "d [m]", "b [m]", "alpha [deg]", "- line [deg]", "- physical [deg]"}};
-  for (std::size_t i = 0; i < kicks_.rows.size(); ++i) {
-    const kicking::DeflectionRow& row = kicks_.rows[i];
-    lines.push_back({fmt::format("{:.2f}", row.vx_mps), fmt::format("{:.2f}", row.distance_m),
-                     fmt::format("{:.3f}", row.b_m), fmt::format("{:.3f}", degrees(fit_.alpha_rad[i])),
-                     fmt::format("{:+.3f}", degrees(fit_.line.residuals[i])),
-                     fmt::format("{:+.3f}", degrees(fit_.travel_residual_rad[i]))});
-  }
-  std::string text = evaluator::text_table(lines) +
+  std::string text = evaluator::text_table(texts_of(table())) +
                      fmt::format(
                          "\nline through the origin (paper): alpha = {} degrees per m/s, rms {:.3f} degrees\n"
                          "physical: alpha = atan(vx T / d), T = {} s, rms {:.3f} degrees\n",

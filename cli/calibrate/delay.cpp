@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "cli/calibrate/fit_flags.hpp"
-#include "cli/calibrate/subcommands.hpp"
+#include "cli/verbs.hpp"
+#include "evaluator/render/table.hpp"
 #include "evaluator/render/text_table.hpp"
 
 namespace trivela::cli {
@@ -34,7 +35,7 @@ class Delay {
   }
 
  private:
-  bool rejected(std::size_t i) const { return std::ranges::find(fit_.rejected, i) != fit_.rejected.end(); }
+  evaluator::Table table() const;
 
   Rows delays_;
   kicking::DelayFit fit_;
@@ -61,6 +62,18 @@ Delay::Rows Delay::rows(const calibration::NumberTable& table, const Flags&, con
   return delays;
 }
 
+evaluator::Table Delay::table() const {
+  evaluator::Table table{{{"delay_s", "delay [ms]", "{:.1f}", 1e3},
+                          {"residual_s", "- mean [ms]", "{:+.1f}", 1e3},
+                          {"rejected", "", ""},
+                          {""}}};
+  for (std::size_t i = 0; i < delays_.rows.size(); ++i) {
+    const bool rejected = std::ranges::find(fit_.rejected, i) != fit_.rejected.end();
+    table.rows.push_back({delays_.rows[i], fit_.residual_s[i], rejected, rejected ? "left out" : ""});
+  }
+  return table;
+}
+
 Json Delay::to_json() const {
   Json json{{"kicks", delays_.rows.size() - fit_.rejected.size()},
             {"delay_s", fit_.mean_s.value},
@@ -68,21 +81,12 @@ Json Delay::to_json() const {
             {"delay_sd_s", fit_.sd_s},
             {"median_s", fit_.median_s},
             {"mad_s", fit_.mad_s},
-            {"rows", Json::array()}};
-  for (std::size_t i = 0; i < delays_.rows.size(); ++i) {
-    json["rows"].push_back(
-        {{"delay_s", delays_.rows[i]}, {"residual_s", fit_.residual_s[i]}, {"rejected", rejected(i)}});
-  }
+            {"rows", evaluator::rows_json(table())}};
   return json;
 }
 
 std::string Delay::to_text() const {
-  std::vector<std::vector<std::string>> lines{{"delay [ms]", "- mean [ms]", ""}};
-  for (std::size_t i = 0; i < delays_.rows.size(); ++i) {
-    lines.push_back({fmt::format("{:.1f}", 1e3 * delays_.rows[i]), fmt::format("{:+.1f}", 1e3 * fit_.residual_s[i]),
-                     rejected(i) ? "left out" : ""});
-  }
-  return evaluator::text_table(lines) +
+  return evaluator::text_table(texts_of(table())) +
          fmt::format("\ndelay {} ms, from kick to kick {:.1f} ms; median {:.1f} ms, MAD {:.1f} ms\n",
                      text_of(fit_.mean_s, 1e3), 1e3 * fit_.sd_s, 1e3 * fit_.median_s, 1e3 * fit_.mad_s);
 }

@@ -5,9 +5,10 @@
 
 #include "calibration/rows/trials.hpp"
 #include "cli/calibrate/fit_flags.hpp"
-#include "cli/calibrate/subcommands.hpp"
 #include "cli/options/output.hpp"
+#include "cli/verbs.hpp"
 #include "evaluator/render/json_values.hpp"
+#include "evaluator/render/table.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -91,45 +92,19 @@ std::vector<Repeatability> repeatability(const TrialsByPower& powers) {
 }
 
 /// Name and value of one of the eight numbers of a row; a spread of one trial is unknown.
-struct Cell {
-  const char* name;
-  std::optional<double> value;
-};
-
-std::vector<Cell> cells_of(const Repeatability& row) {
-  const auto sd = [&](const kicking::Spread& s) { return row.trials > 1 ? std::optional(s.sd) : std::nullopt; };
-  return {{"exit_speed_mps", row.exit_speed_mps.mean},
-          {"exit_speed_sd_mps", sd(row.exit_speed_mps)},
-          {"exit_angle_deg", row.exit_angle_deg.mean},
-          {"exit_angle_sd_deg", sd(row.exit_angle_deg)},
-          {"distance_m", row.distance_m.mean},
-          {"distance_sd_m", sd(row.distance_m)},
-          {"height_m", row.height_m.mean},
-          {"height_sd_m", sd(row.height_m)}};
-}
-
-void print_json(const std::vector<Repeatability>& rows, const PlotFlags& flags,
-                const std::vector<std::string>& warnings) {
-  Json json{{"file", flags.out}, {"setpoints", Json::array()}, {"warnings", warnings}};
+evaluator::Table table_of(const std::vector<Repeatability>& rows, const char* form) {
+  evaluator::Table table{{{"power", "power", "{:g}"}, {"trials", "trials"}}};
+  for (const char* const name : {"exit_speed_mps", "exit_speed_sd_mps", "exit_angle_deg", "exit_angle_sd_deg",
+                                 "distance_m", "distance_sd_m", "height_m", "height_sd_m"})
+    table.columns.push_back({name, name, form});
   for (const Repeatability& row : rows) {
-    Json& point = json["setpoints"].emplace_back(Json{{"power", row.power}, {"trials", row.trials}});
-    for (const Cell& cell : cells_of(row)) point[cell.name] = cell.value ? Json(*cell.value) : Json(nullptr);
-  }
-  fmt::print("{}", evaluator::json_text(json));
-}
-
-/// A line a power under a head; `empty` stands for an unknown spread.
-std::vector<std::vector<std::string>> lines_of(const std::vector<Repeatability>& rows, const char* format,
-                                               const char* empty) {
-  std::vector<std::vector<std::string>> lines{{"power", "trials"}};
-  for (const Cell& cell : cells_of(rows.front())) lines.front().emplace_back(cell.name);
-  for (const Repeatability& row : rows) {
-    lines.push_back({fmt::format("{:g}", row.power), std::to_string(row.trials)});
-    for (const Cell& cell : cells_of(row)) {
-      lines.back().push_back(cell.value ? fmt::format(fmt::runtime(format), *cell.value) : empty);
+    auto& cells = table.rows.emplace_back(std::vector<Json>{row.power, row.trials});
+    for (const kicking::Spread& of : {row.exit_speed_mps, row.exit_angle_deg, row.distance_m, row.height_m}) {
+      cells.emplace_back(of.mean);
+      cells.push_back(row.trials > 1 ? Json(of.sd) : Json());
     }
   }
-  return lines;
+  return table;
 }
 
 int plot(const PlotFlags& flags) {
@@ -137,15 +112,16 @@ int plot(const PlotFlags& flags) {
   const calibration::Trials trials = calibration::read_trials(flags.inputs, trial_flags(flags.columns));
   const TrialsByPower powers = by_power(trials.trials);
   write_file(flags.out, evaluator::to_svg(chart_of(powers, trials.simulated)));
-  const std::vector<Repeatability> rows = repeatability(powers);
+  const evaluator::Table table = table_of(repeatability(powers), flags.csv ? "{:.6g}" : "{:.3f}");
   if (flags.json) {
-    print_json(rows, flags, trials.warnings);
+    const Json json{{"file", flags.out}, {"setpoints", rows_json(table)}, {"warnings", trials.warnings}};
+    fmt::print("{}", evaluator::json_text(json));
     return kDone;
   }
   if (flags.csv) {
-    for (const auto& line : lines_of(rows, "{:.6g}", "")) fmt::print("{}\n", fmt::join(line, ","));
+    for (const auto& line : texts_of(table, "")) fmt::print("{}\n", fmt::join(line, ","));
   } else {
-    fmt::print("{}\nWritten: {}\n", evaluator::text_table(lines_of(rows, "{:.3f}", "-")), flags.out);
+    fmt::print("{}\nWritten: {}\n", evaluator::text_table(texts_of(table)), flags.out);
   }
   for (const std::string& warning : trials.warnings) warn(warning);
   return kDone;

@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/calibrate/subcommands.hpp"
 #include "cli/launch/progress_bar.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"

@@ -79,44 +79,20 @@ void require_for_drive(const bus::Participant& participant, const config::Settin
 }
 
 using DriveClock = std::chrono::steady_clock;
-constexpr std::chrono::seconds kStopTimeout{10};
 constexpr std::chrono::milliseconds kLookAtNodes{100};
 constexpr const char* kOwnGroup = "224.16.32.1";  // on the loopback, between this process and its refbox node
 
-/// Ends nodes, the recorder last, so that it hears what the others say on their way out.
-class NodesOfADrive {
- public:
+/// The nodes of a drive; the recorder ends last.
+struct NodesOfADrive {
+  std::deque<ChildProcess> running;
+
   NodesOfADrive(const config::Settings& settings, const fs::path& config_file, bool refbox) {
-    std::vector<std::string> names = nodes_of_match(settings);
-    if (refbox) names.emplace_back("refbox");
-    for (const std::string& name : names) {
-      NodeProgram started = node_program(name);
-      started.arguments.insert(started.arguments.end(), {"--config", config_file.string()});
-      nodes_.emplace_back(name, started.program, started.arguments);
-    }
+    for (const std::string& name : nodes_of_match(settings)) running.push_back(start_node(name, config_file));
+    if (refbox) running.push_back(start_node("refbox", config_file));
   }
-  ~NodesOfADrive() { stop(); }
+  ~NodesOfADrive() { stop_all(running, 1); }
   NodesOfADrive(const NodesOfADrive&) = delete;
   NodesOfADrive& operator=(const NodesOfADrive&) = delete;
-
-  /// A node that has ended, as a sentence; empty: all run.
-  std::string casualty() {
-    for (ChildProcess& node : nodes_) {
-      if (node.ended()) return fmt::format("{} died ({})", node.name(), node.how_it_ended());
-    }
-    return {};
-  }
-
-  void stop() {
-    for (std::size_t i = 1; i < nodes_.size(); ++i) nodes_[i].terminate();
-    for (; !nodes_.empty(); nodes_.pop_back()) {
-      if (nodes_.size() == 1) nodes_.back().terminate();
-      nodes_.back().wait(kStopTimeout);
-    }
-  }
-
- private:
-  std::deque<ChildProcess> nodes_;
 };
 
 /// Publishes START, and STOP when it ends.
@@ -232,10 +208,10 @@ calibration::DriveRecord RobotDrives::play(const calibration::DrivePlan& plan, c
     if (!started) started = referee->start_when_connected();
     pollfd inbox{signals_.file_descriptor(), POLLIN, 0};
     ::poll(&inbox, 1, static_cast<int>(kLookAtNodes.count()));
-    trouble = signals_.stop_requested() ? "interrupted" : nodes.casualty();
+    trouble = signals_.stop_requested() ? "interrupted" : casualty(nodes.running);
   }
   referee.reset();
-  nodes.stop();
+  stop_all(nodes.running, 1);
   record.played_s = record.wall_s = std::chrono::duration<double>(DriveClock::now() - began).count();
   if (!trouble.empty())
     throw std::runtime_error{fmt::format("{}: {} after {} of {} kicks; what was recorded until then is in {}",

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "cli/calibrate/fit_flags.hpp"
-#include "cli/calibrate/subcommands.hpp"
 #include "cli/options/number_checks.hpp"
+#include "cli/verbs.hpp"
+#include "evaluator/render/table.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "kicking/alignment/deflection.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -42,6 +43,7 @@ class Rotation {
                flags.cycle_s},
         fit_(kicking::fit_rotation(kicks_.rows, lever_)) {}
 
+  evaluator::Table table() const;
   Json to_json() const;
   std::string to_text() const;
   std::vector<std::string> warnings() const { return kicks_.left_out; }
@@ -79,13 +81,29 @@ Rotation::Rows Rotation::rows(const calibration::NumberTable& table, const Flags
   return rows;
 }
 
+evaluator::Table Rotation::table() const {
+  evaluator::Table table{{{"omega_degps", "omega [deg/s]", "{:.1f}"},
+                          {"b_m", "b [m]", "{:.3f}"},
+                          {"d_m", "d [m]", "{:.2f}"},
+                          {"beta_deg", "beta [deg]", "{:.3f}"},
+                          {"line_residual_deg", "- line [deg]", "{:+.3f}"}}};
+  if (fit_.delay) table.columns.push_back({"physical_residual_deg", "- physical [deg]", "{:+.3f}"});
+  for (std::size_t i = 0; i < kicks_.rows.size(); ++i) {
+    const kicking::RotationRow& row = kicks_.rows[i];
+    table.rows.push_back({degrees(row.omega_radps), row.allowed_error_m, row.distance_m, degrees(fit_.beta_rad[i]),
+                          degrees(fit_.line.residuals[i])});
+    if (fit_.delay) table.rows.back().emplace_back(degrees(fit_.delay->residuals[i]));
+  }
+  return table;
+}
+
 Json Rotation::to_json() const {
   Json json{
       {"kicks", fit_.beta_rad.size()},
       {"line",
        {{"slope_s", fit_.line.slope.value}, {"slope_se_s", fit_.line.slope.se}, {"rms_deg", degrees(fit_.line.rms)}}},
       {"physical", nullptr},
-      {"rows", Json::array()}};
+      {"rows", evaluator::rows_json(table())}};
   if (fit_.delay) {
     json["physical"] = {{"delay_s", fit_.delay->slope.value},
                         {"delay_se_s", fit_.delay->slope.se},
@@ -93,29 +111,11 @@ Json Rotation::to_json() const {
                         {"ball_offset_m", lever_.ball_offset_m},
                         {"cycle_s", lever_.cycle_s}};
   }
-  for (std::size_t i = 0; i < kicks_.rows.size(); ++i) {
-    const kicking::RotationRow& row = kicks_.rows[i];
-    Json& object = json["rows"].emplace_back(Json{{"omega_degps", degrees(row.omega_radps)},
-                                                  {"b_m", row.allowed_error_m},
-                                                  {"d_m", row.distance_m},
-                                                  {"beta_deg", degrees(fit_.beta_rad[i])},
-                                                  {"line_residual_deg", degrees(fit_.line.residuals[i])}});
-    if (fit_.delay) object["physical_residual_deg"] = degrees(fit_.delay->residuals[i]);
-  }
   return json;
 }
 
 std::string Rotation::to_text() const {
-  std::vector<std::vector<std::string>> lines{{"omega [deg/s]", "b [m]", "d [m]", "beta [deg]", "- line [deg]"}};
-  if (fit_.delay) lines.front().emplace_back("- physical [deg]");
-  for (std::size_t i = 0; i < kicks_.rows.size(); ++i) {
-    const kicking::RotationRow& row = kicks_.rows[i];
-    lines.push_back({fmt::format("{:.1f}", degrees(row.omega_radps)), fmt::format("{:.3f}", row.allowed_error_m),
-                     fmt::format("{:.2f}", row.distance_m), fmt::format("{:.3f}", degrees(fit_.beta_rad[i])),
-                     fmt::format("{:+.3f}", degrees(fit_.line.residuals[i]))});
-    if (fit_.delay) lines.back().push_back(fmt::format("{:+.3f}", degrees(fit_.delay->residuals[i])));
-  }
-  const std::string text = evaluator::text_table(lines) +
+  const std::string text = evaluator::text_table(texts_of(table())) +
                            fmt::format("\nline through the origin (paper): beta = ({} s) omega, rms {:.3f} degrees\n",
                                        text_of(fit_.line.slope), degrees(fit_.line.rms));
   if (!fit_.delay)

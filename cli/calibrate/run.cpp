@@ -1,4 +1,3 @@
-#include "cli/calibrate/subcommands.hpp"
 
 #include <fmt/core.h>
 
@@ -7,8 +6,7 @@
 
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/calibrate/run_flags.hpp"
-#include "cli/calibrate/run_report.hpp"
+#include "cli/calibrate/run.hpp"
 #include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"

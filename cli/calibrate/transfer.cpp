@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
 #include "cli/calibrate/fit_flags.hpp"
-#include "cli/calibrate/subcommands.hpp"
+#include "cli/verbs.hpp"
+#include "evaluator/render/table.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "kicking/geometry/angle.hpp"
 
@@ -50,9 +51,7 @@ class Transfer {
   }
 
  private:
-  /// What was seen of a kick: its speeds behind the robot, or where it crossed.
-  double second(const kicking::TransferRow& row) const { return tracked_ ? row.track->along_mps : row.distance_m; }
-  double third(const kicking::TransferRow& row) const { return tracked_ ? row.track->up_mps : row.z_cross_m; }
+  evaluator::Table table() const;
   Json json_of_direction(const std::optional<kicking::TransferDirection>& direction) const;
   std::string constants_of(const char* name, const std::optional<kicking::TransferDirection>& direction) const;
 
@@ -93,22 +92,34 @@ Json Transfer::json_of_direction(const std::optional<kicking::TransferDirection>
           {tracked_ ? "rms_mps" : "rms_m", direction->rms}};
 }
 
+/// What was seen of a kick: its speeds behind the robot, or where it crossed.
+evaluator::Table Transfer::table() const {
+  evaluator::Table table{{{"vy_mps", "vy [m/s]", "{:+.2f}"}, {"v0_mps", "V0 [m/s]", "{:.3f}"}}};
+  if (tracked_) {
+    table.columns.insert(table.columns.end(), {{"along_mps", "along [m/s]", "{:.2f}"},
+                                               {"up_mps", "up [m/s]", "{:.3f}"},
+                                               {"residual_mps", "- fitted [m/s]", "{:+.3f}"}});
+  } else {
+    table.columns.insert(
+        table.columns.end(),
+        {{"d_m", "d [m]", "{:.2f}"}, {"z_cross_m", "z [m]", "{:.3f}"}, {"residual_m", "- exact law [m]", "{:+.3f}"}});
+  }
+  for (const auto* direction : {&fit_.forward, &fit_.backward}) {
+    for (std::size_t i = 0; *direction && i < (*direction)->rows.size(); ++i) {
+      const kicking::TransferRow& row = kicks_.rows[(*direction)->rows[i]];
+      table.rows.push_back({row.vy_mps, row.v0_mps, tracked_ ? row.track->along_mps : row.distance_m,
+                            tracked_ ? row.track->up_mps : row.z_cross_m, (*direction)->residual[i]});
+    }
+  }
+  return table;
+}
+
 Json Transfer::to_json() const {
   Json json{{"delay_s", delay_s_},
             {"standing_ratio", fit_.standing_ratio ? json_of(*fit_.standing_ratio) : Json(nullptr)},
             {"forward", json_of_direction(fit_.forward)},
             {"backward", json_of_direction(fit_.backward)},
-            {"rows", Json::array()}};
-  for (const auto* direction : {&fit_.forward, &fit_.backward}) {
-    for (std::size_t i = 0; *direction && i < (*direction)->rows.size(); ++i) {
-      const kicking::TransferRow& row = kicks_.rows[(*direction)->rows[i]];
-      json["rows"].push_back({{"vy_mps", row.vy_mps},
-                              {"v0_mps", row.v0_mps},
-                              {tracked_ ? "along_mps" : "d_m", second(row)},
-                              {tracked_ ? "up_mps" : "z_cross_m", third(row)},
-                              {tracked_ ? "residual_mps" : "residual_m", (*direction)->residual[i]}});
-    }
-  }
+            {"rows", evaluator::rows_json(table())}};
   return json;
 }
 
@@ -120,18 +131,7 @@ std::string Transfer::constants_of(const char* name, const std::optional<kicking
 }
 
 std::string Transfer::to_text() const {
-  std::vector<std::vector<std::string>> lines{{"vy [m/s]", "V0 [m/s]", tracked_ ? "along [m/s]" : "d [m]",
-                                               tracked_ ? "up [m/s]" : "z [m]",
-                                               tracked_ ? "- fitted [m/s]" : "- exact law [m]"}};
-  for (const auto* direction : {&fit_.forward, &fit_.backward}) {
-    for (std::size_t i = 0; *direction && i < (*direction)->rows.size(); ++i) {
-      const kicking::TransferRow& row = kicks_.rows[(*direction)->rows[i]];
-      lines.push_back({fmt::format("{:+.2f}", row.vy_mps), fmt::format("{:.3f}", row.v0_mps),
-                       fmt::format("{:.2f}", second(row)), fmt::format("{:.3f}", third(row)),
-                       fmt::format("{:+.3f}", (*direction)->residual[i])});
-    }
-  }
-  std::string text = evaluator::text_table(lines) + "\n";
+  std::string text = evaluator::text_table(texts_of(table())) + "\n";
   if (fit_.standing_ratio) {
     text +=
         fmt::format("kicks at rest: {} {}\n", tracked_ ? "effective speed over the tracked one" : "V0 of the rows' is",

@@ -32,6 +32,96 @@ struct RemoteFile {
 };
 using RemoteFiles = std::map<std::string, RemoteFile>;  // by path
 
+/// A program that ended.
+struct Ran {
+  bool succeeded = false;
+  std::string output;  // standard output
+  std::string said;    // standard error as one line, or how it ended
+};
+
+constexpr const char* kQuietSsh = " -o BatchMode=yes -o ConnectTimeout=10";
+
+std::string as_one_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+  std::string line;
+  for (const char c : text) line += c == '\n' ? std::string("; ") : c == '\r' ? std::string() : std::string(1, c);
+  return line;
+}
+
+[[noreturn]] void become_program(const std::vector<std::string>& words, int out, int err) {
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  dup2(out, STDOUT_FILENO);
+  dup2(err, STDERR_FILENO);
+  std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
+  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  execvp(argv.front(), argv.data());
+  _exit(127);
+}
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
+
+TemporaryFile temporary_file() {
+  TemporaryFile file(std::tmpfile());
+  if (!file) throw std::runtime_error{fmt::format("cannot make a temporary file: {}", std::strerror(errno))};
+  return file;
+}
+
+std::string content_of(std::FILE* file) {
+  std::string text;
+  std::array<char, 4096> piece{};
+  std::rewind(file);
+  for (std::size_t n = 0; (n = std::fread(piece.data(), 1, piece.size(), file)) > 0;) text.append(piece.data(), n);
+  return text;
+}
+
+/// Its output goes to files, which never fill up while nobody reads.
+Ran run_program(const std::vector<std::string>& words) {
+  const TemporaryFile out = temporary_file(), err = temporary_file();
+  const pid_t id = ::fork();
+  if (id < 0) throw std::runtime_error{fmt::format("cannot start {}: {}", words.front(), std::strerror(errno))};
+  if (id == 0) become_program(words, ::fileno(out.get()), ::fileno(err.get()));
+  int status = 0;
+  while (::waitpid(id, &status, 0) < 0 && errno == EINTR) {
+  }
+  Ran ran;
+  ran.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  ran.output = content_of(out.get());
+  ran.said = as_one_line(content_of(err.get()));
+  if (!ran.succeeded && ran.said.empty())
+    ran.said = WIFEXITED(status) ? fmt::format("{} ended with exit code {}", words.front(), WEXITSTATUS(status))
+                                 : fmt::format("{} was ended by signal {}", words.front(), WTERMSIG(status));
+  return ran;
+}
+
+/// A word as a shell takes it back.
+std::string shell_quoted(const std::string& word) {
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// Runs a shell's command on a host by `ssh` without asking anybody for a password.
+Ran run_on(const std::string& host, const std::string& command, const std::string& ssh) {
+  return run_program({ssh, "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", host, command});
+}
+
+/// rsync of files from a host into a folder: what is there already is compared by size and time, what came in part goes
+/// on, nothing is changed there.
+Ran fetch_files(const std::string& host, const std::vector<std::string>& paths, const std::filesystem::path& folder,
+                const std::string& ssh) {
+  std::vector<std::string> words{"rsync", "--times", "--partial", "--protect-args", "--rsh=" + ssh + kQuietSsh};
+  for (const std::string& path : paths) words.push_back(fmt::format("{}:{}", host, path));
+  words.push_back(folder.string() + "/");
+  return run_program(words);
+}
+
 /// Sizes, ages and paths of logs and what lies beside them.
 RemoteFiles files_of(const std::string& listing) {
   RemoteFiles files;
@@ -106,67 +196,6 @@ void fetch_log(const LogHost& host, const std::string& path, const RemoteFiles& 
   }
 }
 
-constexpr const char* kQuietSsh = " -o BatchMode=yes -o ConnectTimeout=10";
-
-std::string as_one_line(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
-  std::string line;
-  for (const char c : text) line += c == '\n' ? std::string("; ") : c == '\r' ? std::string() : std::string(1, c);
-  return line;
-}
-
-[[noreturn]] void become_program(const std::vector<std::string>& words, int out, int err) {
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  dup2(out, STDOUT_FILENO);
-  dup2(err, STDERR_FILENO);
-  std::vector<char*> argv;
-  argv.reserve(words.size() + 1);
-  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
-  execvp(argv.front(), argv.data());
-  _exit(127);
-}
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
-
-TemporaryFile temporary_file() {
-  TemporaryFile file(std::tmpfile());
-  if (!file) throw std::runtime_error{fmt::format("cannot make a temporary file: {}", std::strerror(errno))};
-  return file;
-}
-
-std::string content_of(std::FILE* file) {
-  std::string text;
-  std::array<char, 4096> piece{};
-  std::rewind(file);
-  for (std::size_t n = 0; (n = std::fread(piece.data(), 1, piece.size(), file)) > 0;) text.append(piece.data(), n);
-  return text;
-}
-
-/// Its output goes to files, which never fill up while nobody reads.
-Ran run_program(const std::vector<std::string>& words) {
-  const TemporaryFile out = temporary_file(), err = temporary_file();
-  const pid_t id = ::fork();
-  if (id < 0) throw std::runtime_error{fmt::format("cannot start {}: {}", words.front(), std::strerror(errno))};
-  if (id == 0) become_program(words, ::fileno(out.get()), ::fileno(err.get()));
-  int status = 0;
-  while (::waitpid(id, &status, 0) < 0 && errno == EINTR) {
-  }
-  Ran ran;
-  ran.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  ran.output = content_of(out.get());
-  ran.said = as_one_line(content_of(err.get()));
-  if (!ran.succeeded && ran.said.empty())
-    ran.said = WIFEXITED(status) ? fmt::format("{} ended with exit code {}", words.front(), WEXITSTATUS(status))
-                                 : fmt::format("{} was ended by signal {}", words.front(), WTERMSIG(status));
-  return ran;
-}
-
 }  // namespace
 
 LogHost log_host(const std::string& text, const std::string& folder) {
@@ -207,24 +236,6 @@ Fetched fetch_logs(const LogHost& host, const fs::path& to, const std::string& s
   }
   if (fetched.logs == 0) fetched.missing.push_back(fmt::format("there is no log in {}", host.path));
   return fetched;
-}
-
-std::string shell_quoted(const std::string& word) {
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-Ran run_on(const std::string& host, const std::string& command, const std::string& ssh) {
-  return run_program({ssh, "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", host, command});
-}
-
-Ran fetch_files(const std::string& host, const std::vector<std::string>& paths, const std::filesystem::path& folder,
-                const std::string& ssh) {
-  std::vector<std::string> words{"rsync", "--times", "--partial", "--protect-args", "--rsh=" + ssh + kQuietSsh};
-  for (const std::string& path : paths) words.push_back(fmt::format("{}:{}", host, path));
-  words.push_back(folder.string() + "/");
-  return run_program(words);
 }
 
 }  // namespace trivela::cli

@@ -1,4 +1,4 @@
-#include "cli/hardware/spin.hpp"
+#include "cli/hardware/tasks.hpp"
 
 #include <fmt/format.h>
 

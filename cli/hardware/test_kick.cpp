@@ -1,4 +1,4 @@
-#include "cli/hardware/test_kick.hpp"
+#include "cli/hardware/tasks.hpp"
 
 #include <fmt/core.h>
 #include <poll.h>

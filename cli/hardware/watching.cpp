@@ -1,4 +1,4 @@
-#include "cli/hardware/watching.hpp"
+#include "cli/hardware/tasks.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "cli/import/match_rows.hpp"
+#include "cli/import/refbox.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/import/refbox_report.hpp"
+#include "cli/import/refbox.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -44,6 +44,27 @@ std::set<std::string, std::less<>>& played_by_this_program() {
   return nodes;
 }
 
+/// What is started as a node.
+struct NodeProgram {
+  fs::path program;
+  std::vector<std::string> arguments;  // before those of the node
+};
+
+NodeProgram node_program(const std::string& node) {
+  const fs::path self = fs::read_symlink("/proc/self/exe");
+  if (played_by_this_program().contains(node)) return {self, {node}};
+  const std::string name = "trivela-" + node;
+  const fs::path beside = self.parent_path() / name;
+  const char* const path = std::getenv("PATH");
+  if (fs::exists(beside) || path == nullptr) return {beside, {}};
+  std::istringstream folders{path};
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path found = fs::path{folder} / name;
+    if (found.is_absolute() && access(found.c_str(), X_OK) == 0) return {found, {}};
+  }
+  return {beside, {}};
+}
+
 }  // namespace
 
 ChildProcess::ChildProcess(std::string name, const std::filesystem::path& program,
@@ -102,19 +123,36 @@ bool ChildProcess::wait(std::chrono::milliseconds timeout) {
   return ended();
 }
 
-NodeProgram node_program(const std::string& node) {
-  const fs::path self = fs::read_symlink("/proc/self/exe");
-  if (played_by_this_program().contains(node)) return {self, {node}};
-  const std::string name = "trivela-" + node;
-  const fs::path beside = self.parent_path() / name;
-  const char* const path = std::getenv("PATH");
-  if (fs::exists(beside) || path == nullptr) return {beside, {}};
-  std::istringstream folders{path};
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path found = fs::path{folder} / name;
-    if (found.is_absolute() && access(found.c_str(), X_OK) == 0) return {found, {}};
+ChildProcess start_node(const std::string& node, const std::filesystem::path& config_file, int output) {
+  NodeProgram started = node_program(node);
+  started.arguments.insert(started.arguments.end(), {"--config", config_file.string()});
+  return {node, started.program, started.arguments, output};
+}
+
+std::string casualty(std::deque<ChildProcess>& nodes) {
+  for (ChildProcess& node : nodes) {
+    if (node.ended()) return fmt::format("{} died ({})", node.name(), node.how_it_ended());
   }
-  return {beside, {}};
+  return {};
+}
+
+std::vector<std::string> stop_all(std::deque<ChildProcess>& nodes, std::size_t last) {
+  constexpr std::chrono::seconds kTimeout{10};
+  std::vector<std::string> trouble;
+  std::vector<bool> ran;
+  ran.reserve(nodes.size());
+  for (ChildProcess& node : nodes) ran.push_back(!node.ended());
+  for (std::size_t i = last; i < nodes.size(); ++i) nodes[i].terminate();
+  for (; !nodes.empty(); nodes.pop_back()) {
+    ChildProcess& node = nodes.back();
+    if (nodes.size() <= last) node.terminate();
+    if (!node.wait(kTimeout)) {
+      trouble.push_back(fmt::format("{} did not stop within 10 s", node.name()));
+    } else if (ran[nodes.size() - 1] && !node.succeeded()) {
+      trouble.push_back(fmt::format("{} failed on stopping ({})", node.name(), node.how_it_ended()));
+    }
+  }
+  return trouble;
 }
 
 void play_by_this_program(std::string_view node) { played_by_this_program().emplace(node); }

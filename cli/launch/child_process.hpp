@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -47,14 +48,17 @@ class ChildProcess {
   std::optional<int> status_;
 };
 
-/// What is started as a node.
-struct NodeProgram {
-  std::filesystem::path program;
-  std::vector<std::string> arguments;  ///< before those of the node
-};
+/// Starts the node, named without "trivela-", with this configuration file: the program beside this one, else the one
+/// on the PATH. `output`: as of ChildProcess.
+ChildProcess start_node(const std::string& node, const std::filesystem::path& config_file, int output = -1);
 
-/// Of the node, without "trivela-": the program beside this one, else the one on the PATH.
-NodeProgram node_program(const std::string& node);
+/// The end of a node that should run, as a sentence; empty if all do.
+std::string casualty(std::deque<ChildProcess>& nodes);
+
+/// Ends them. Each is asked once, since a second signal would hit one that has stopped listening. The first `last` of
+/// the list stop after the others, one after the other from behind: the recorder hears what the others say on their way
+/// out. Returns what went wrong, a sentence each.
+std::vector<std::string> stop_all(std::deque<ChildProcess>& nodes, std::size_t last);
 
 /// From now on the node is this program with the node's name as its first argument.
 void play_by_this_program(std::string_view node);

@@ -19,7 +19,7 @@
 namespace trivela::cli {
 namespace {
 
-constexpr std::chrono::seconds kChildTimeout{10};
+constexpr std::chrono::seconds kFeederTimeout{10};
 
 /// Where nobody reads.
 class Nowhere {
@@ -36,45 +36,13 @@ class Nowhere {
   int descriptor_;
 };
 
-/// The end of a node before the match is over, as a sentence; empty if all run.
-std::string casualty(std::deque<ChildProcess>& children) {
-  for (ChildProcess& child : children) {
-    if (child.ended()) return fmt::format("{} died ({})", child.name(), child.how_it_ended());
-  }
-  return {};
-}
-
-/// Each is asked once, since a second signal would hit one that has stopped listening. The first `last` of the list
-/// stop after the others, one after the other from behind: the recorder hears what the others say on their way out.
-void stop_all(std::deque<ChildProcess>& children, std::size_t last, std::string& trouble) {
-  const auto complain = [&](const std::string& sentence) { trouble += (trouble.empty() ? "" : "; ") + sentence; };
-  std::vector<bool> ran;
-  ran.reserve(children.size());
-  for (ChildProcess& child : children) ran.push_back(!child.ended());
-  for (std::size_t i = last; i < children.size(); ++i) children[i].terminate();
-  for (; !children.empty(); children.pop_back()) {
-    ChildProcess& child = children.back();
-    if (children.size() <= last) child.terminate();
-    if (!child.wait(kChildTimeout)) {
-      complain(fmt::format("{} did not stop within 10 s", child.name()));
-    } else if (ran[children.size() - 1] && !child.succeeded()) {
-      complain(fmt::format("{} failed on stopping ({})", child.name(), child.how_it_ended()));
-    }
-  }
-}
-
 /// Starts processes with one configuration file.
 class Starter {
  public:
   explicit Starter(bool quiet) : quiet_(quiet) {}
 
-  ChildProcess start(const std::string& node, const std::filesystem::path& config_file, int output) const {
-    NodeProgram started = node_program(node);
-    started.arguments.insert(started.arguments.end(), {"--config", config_file.string()});
-    return {node, started.program, started.arguments, output};
-  }
   ChildProcess start(const std::string& node, const std::filesystem::path& config_file) const {
-    return start(node, config_file, quiet_ ? nowhere_.descriptor() : -1);
+    return start_node(node, config_file, quiet_ ? nowhere_.descriptor() : -1);
   }
 
  private:
@@ -106,7 +74,8 @@ MatchResult end_match(std::deque<ChildProcess>& children, std::size_t last, std:
   MatchResult result{.played_s = played_s,
                      .wall_s = std::chrono::duration<double>{WallClock::now() - started}.count(),
                      .trouble = std::move(trouble)};
-  stop_all(children, last, result.trouble);
+  for (const std::string& sentence : stop_all(children, last))
+    result.trouble += (result.trouble.empty() ? "" : "; ") + sentence;
   return result;
 }
 
@@ -119,7 +88,7 @@ MatchResult run_match(const std::string& feeder, const std::filesystem::path& co
   const auto started = WallClock::now();
   const Starter starter{quiet};
   for (const std::string& node : nodes) children.push_back(starter.start(node, config_file));
-  children.push_back(starter.start(feeder, config_file, progress.write_end()));
+  children.push_back(start_node(feeder, config_file, progress.write_end()));
   progress.close_write_end();
   std::string trouble;
   for (Watch watch{progress, signals};;) {
@@ -128,7 +97,7 @@ MatchResult run_match(const std::string& feeder, const std::filesystem::path& co
       trouble = "interrupted";
       break;
     }
-    if (over && children.back().wait(kChildTimeout) && children.back().succeeded()) {
+    if (over && children.back().wait(kFeederTimeout) && children.back().succeeded()) {
       children.pop_back();
       if (!progress.whole()) trouble = fmt::format("{} was stopped before the end", feeder);
       break;
@@ -144,7 +113,7 @@ MatchResult run_emulated_match(const std::filesystem::path& world_config, const 
   std::deque<ChildProcess> children;
   const auto started = WallClock::now();
   const Starter starter{false};
-  children.push_back(starter.start("simulator", world_config, progress.write_end()));
+  children.push_back(start_node("simulator", world_config, progress.write_end()));
   progress.close_write_end();
   std::string trouble;
   Watch watch{progress, signals};

@@ -5,7 +5,7 @@
 
 #include <trivela/program.hpp>
 #include "cli/launch/child_process.hpp"
-#include "cli/run/verbs.hpp"
+#include "cli/program.hpp"
 
 namespace trivela::nodes {
 int kick_decision_main(int argc, char** argv);

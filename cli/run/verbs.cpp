@@ -1,4 +1,3 @@
-#include "cli/run/verbs.hpp"
 
 #include "cli/program.hpp"
 

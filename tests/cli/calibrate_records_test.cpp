@@ -7,7 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/calibrate/subcommands.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
 #include "tests/calibration/drive_log.hpp"

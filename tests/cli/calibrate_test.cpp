@@ -8,7 +8,6 @@
 #include "calibration/robot_update.hpp"
 #include "calibration/rows/trials.hpp"
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/calibrate/subcommands.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
 #include "config/text/error.hpp"

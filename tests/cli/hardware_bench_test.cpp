@@ -1,8 +1,7 @@
 // What `trivela hardware` says before it looks or asks: devices that somebody else has, kickers that could not fire.
 #include <gmock/gmock.h>
 
-#include "cli/hardware/test_kick.hpp"
-#include "cli/hardware/watching.hpp"
+#include "cli/hardware/tasks.hpp"
 
 namespace trivela::cli {
 namespace {

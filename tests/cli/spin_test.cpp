@@ -1,5 +1,5 @@
 // One wheel of a robot that is not there: what is asked of it, and what is said of what it did.
-#include "cli/hardware/spin.hpp"
+#include "cli/hardware/tasks.hpp"
 
 #include <gmock/gmock.h>
 
