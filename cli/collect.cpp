@@ -73,11 +73,9 @@ void add_collect(CLI::App& app, int& exit_code) {
   const auto [verb, arguments] =
       add_verb(app, exit_code, "collect", "Fetch the finished match logs of a team's robots", run_collect);
   verb->footer(
-      "By rsync over ssh, with the keys that ssh finds. Logs land in DIR/HOST and are checked there; a broken "
-      "transfer\n"
-      "goes on where it was. Nothing is changed or deleted on a robot. Logs that are being written are left alone. "
-      "Ends\n"
-      "with \"missing: nothing\", or with what is missing and exit code 3. Then: trivela merge OUT DIR/*/*.db");
+      R"(By rsync over ssh, with the keys that ssh finds. Logs land in DIR/HOST and are checked there; a broken transfer
+goes on where it was. Nothing is changed or deleted on a robot. Logs that are being written are left alone. Ends
+with "missing: nothing", or with what is missing and exit code 3. Then: trivela merge OUT DIR/*/*.db)");
   verb->add_option("hosts", arguments->hosts,
                    "A team's file (.toml), or [USER@]HOST[:PATH] of each robot, PATH a folder of logs or one log")
       ->required();

@@ -139,14 +139,12 @@ void add_doctor(CLI::App& app, int& exit_code) {
   const auto [verb, flags] = add_verb(
       app, exit_code, "doctor", "Say what is wrong with logs or this machine's network, and what to do", run_doctor);
   verb->footer(
-      "Of logs: their rows against their digests, sessions that were never closed, gaps, a -wal left behind, a match\n"
-      "that was cut short, the goal line against the tracks of balls, clocks that jumped, and of several kicks of\n"
-      "which they say different things. Nothing is changed. Exit codes: 0 nothing is wrong; 1 a log cannot be read or "
-      "is\n"
-      "not what was recorded; 3 something is missing or doubtful.\n"
-      "Of the network: 0 nothing is bad, warnings may stand; 1 something is. The firewall's rules are read where nft "
-      "is\n"
-      "installed and permits it, as root.");
+      R"(Of logs: their rows against their digests, sessions that were never closed, gaps, a -wal left behind, a match
+that was cut short, the goal line against the tracks of balls, clocks that jumped, and of several kicks of
+which they say different things. Nothing is changed. Exit codes: 0 nothing is wrong; 1 a log cannot be read or is
+not what was recorded; 3 something is missing or doubtful.
+Of the network: 0 nothing is bad, warnings may stand; 1 something is. The firewall's rules are read where nft is
+installed and permits it, as root.)");
   auto* const logs = verb->add_option("logs", flags->logs, "match logs");
   verb->add_flag("--network", flags->network, "interface, multicast, buffers, clock, ports, peers, firewall")
       ->excludes(logs);

@@ -27,9 +27,9 @@ void add_drift(CLI::App& app, int& exit_code) {
   const auto [verb, arguments] = add_verb(
       app, exit_code, "drift", "Say whether a robot's kicker changed, at which kick, and by how much", run_drift);
   verb->footer(
-      "Exit speeds and crossing heights are compared with what the robot predicted, by CUSUM; the robot's own numbers\n"
-      "alone are used. A robot's kicks go on from log to log, in the order of their time; a simulated session is a\n"
-      "kicker of its own. Exit code 3 where a kicker changed.");
+      R"(Exit speeds and crossing heights are compared with what the robot predicted, by CUSUM; the robot's own numbers
+alone are used. A robot's kicks go on from log to log, in the order of their time; a simulated session is a
+kicker of its own. Exit code 3 where a kicker changed.)");
   verb->add_option("logs", arguments->logs, "Match logs, such as out/match.db")->required();
   verb->add_flag("--json", arguments->json, "JSON instead of text");
 }

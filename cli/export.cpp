@@ -89,9 +89,9 @@ void add_export(CLI::App& app, int& exit_code) {
   const auto [verb, flags] = add_verb(app, exit_code, "export",
                                       "Write a match log as CSV, or as MCAP for Foxglove and PlotJuggler", run_export);
   verb->footer(
-      "A file or folder gets its name when it is whole: nothing half is left behind by Ctrl-C. Streams are the tables\n"
-      "of log/schema/schema.sql; names of columns say the units, NULL is an empty cell, and every number is read\n"
-      "back to the bit. The log is only read.");
+      R"(A file or folder gets its name when it is whole: nothing half is left behind by Ctrl-C. Streams are the tables
+of log/schema/schema.sql; names of columns say the units, NULL is an empty cell, and every number is read
+back to the bit. The log is only read.)");
   verb->add_option("log", flags->log, "Match log")->required();
   verb->add_option("--csv", flags->csv, "New folder: a CSV file a stream")->type_name("FOLDER");
   verb->add_option("--mcap", flags->mcap, "New file: all streams in time, with what a 3D view shows")

@@ -167,10 +167,10 @@ void add_hardware(CLI::App& app, int& exit_code) {
   const auto [verb, flags] = add_verb(app, exit_code, "hardware",
                                       "List a robot's devices, show what they say, try one at a time", run_hardware);
   verb->footer(
-      "Opens what the nodes of this configuration would open. A device that somebody else has is left to them.\n"
-      "Exit codes: 0 all that is configured answers, or the test went well; 1 a device does not answer, did not for a\n"
-      "while or was not opened, a wheel did something else, a kick was refused, not confirmed or interrupted;\n"
-      "2 bad usage.");
+      R"(Opens what the nodes of this configuration would open. A device that somebody else has is left to them.
+Exit codes: 0 all that is configured answers, or the test went well; 1 a device does not answer, did not for a
+while or was not opened, a wheel did something else, a kick was refused, not confirmed or interrupted;
+2 bad usage.)");
   add_default(*verb, "--config", flags->config, "configuration of the nodes");
   verb->add_option("--set", flags->overrides, "one setting on top, e.g. --set 'hal.kicker=\"ioboard\"'");
   verb->add_option("--seconds", flags->seconds,

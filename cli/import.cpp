@@ -105,8 +105,8 @@ void add_import_refbox(CLI::App& verb, int& exit_code) {
       ->check(CLI::IsMember({"cyan", "magenta", "left", "right"}));
   subcommand->add_flag("--json", arguments->json, "JSON instead of text");
   subcommand->footer(
-      "Records count in the order of the file and by game time. Ends with 1 where nothing could be used, with 3\n"
-      "where lines or records could not.");
+      R"(Records count in the order of the file and by game time. Ends with 1 where nothing could be used, with 3
+where lines or records could not.)");
 }
 
 }  // namespace

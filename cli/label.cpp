@@ -118,16 +118,12 @@ void add_label(CLI::App& app, int& exit_code) {
   const auto [verb, arguments] =
       add_verb(app, exit_code, "label", "Say by hand what became of a kick, or list the unknown ones", run_label);
   verb->footer(
-      "Each label is a row of its own with who and when; nothing is changed or removed, and the observer's class "
-      "stays\n"
-      "beside it. The latest label of a kick counts before the observer, in report, compare and every metric, which\n"
-      "also say how often the two disagreed. \"outside\" is a miss that is not said how; --withdraw is a row, too, "
-      "after\n"
-      "which the observer's class counts again. Without KICK: the kicks that nobody knows, and those labelled. "
-      "--serve\n"
-      "is a page that steps through them with their replay and a video's time; it prints an address that holds the "
-      "right\n"
-      "to label, for this machine alone.");
+      R"(Each label is a row of its own with who and when; nothing is changed or removed, and the observer's class stays
+beside it. The latest label of a kick counts before the observer, in report, compare and every metric, which
+also say how often the two disagreed. "outside" is a miss that is not said how; --withdraw is a row, too, after
+which the observer's class counts again. Without KICK: the kicks that nobody knows, and those labelled. --serve
+is a page that steps through them with their replay and a video's time; it prints an address that holds the right
+to label, for this machine alone.)");
   verb->add_option("log", arguments->log, "Match log")->required();
   verb->add_option("kick", arguments->kick, "ROBOT:NUMBER as in trivela label LOG, its number alone, or its kick_id");
   verb->add_option("outcome", arguments->outcome, fmt::format("{}", fmt::join(log::kLabels, ", ")))

@@ -42,8 +42,8 @@ void add_monitor(CLI::App& app, int& exit_code) {
   const auto [verb, flags] = add_verb(app, exit_code, "monitor",
                                       "Serve a live page of a match: field, decisions, kicks, alarms", serve_monitor);
   verb->footer(
-      "It listens and writes nothing on the bus, and the page answers no request but GET: nothing of it can order "
-      "anything.\nPrints the page's address and serves it until Ctrl-C.");
+      R"(It listens and writes nothing on the bus, and the page answers no request but GET: nothing of it can order anything.
+Prints the page's address and serves it until Ctrl-C.)");
   add_bus_flags(*verb, *flags, "whose [domain], field and rules are looked at", "team.toml that names team and robots");
   add_watch_flags(*verb, flags->watch);
 }

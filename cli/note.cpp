@@ -104,9 +104,8 @@ void add_note(CLI::App& app, int& exit_code) {
   const auto [verb, arguments] = add_verb(
       app, exit_code, "note", "Say in a log which match it is, against whom, where, and what to know", run_note);
   verb->footer(
-      "Each is a row of its own with who and when; nothing is changed or removed. Of match, opponent and venue the\n"
-      "latest holds, notes stand beside each other; the report shows what holds. Without anything to say: what was "
-      "said.");
+      R"(Each is a row of its own with who and when; nothing is changed or removed. Of match, opponent and venue the
+latest holds, notes stand beside each other; the report shows what holds. Without anything to say: what was said.)");
   verb->add_option("log", arguments->log, "Match log")->required();
   verb->add_option("text", arguments->text, "A note, in quotes");
   verb->add_option("--match", arguments->match, "Which match it is, such as \"semi-final\"");

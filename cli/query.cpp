@@ -131,9 +131,8 @@ int run_query(const QueryArguments& arguments) {
 void add_query(CLI::App& app, int& exit_code) {
   const auto [verb, arguments] =
       add_verb(app, exit_code, "query", "Ask a match log: a metric by its name, or one SELECT of your own", run_query);
-  verb->footer(
-      "Tables and columns are those of log/schema/schema.sql; view\n"
-      "counted_kicks has each kick once. The log is only read.");
+  verb->footer(R"(Tables and columns are those of log/schema/schema.sql; view
+counted_kicks has each kick once. The log is only read.)");
   auto* const log = verb->add_option("log", arguments->log, "Match log, such as out/match.db");
   verb->add_option("sql", arguments->sql, "One SELECT, in quotes");
   verb->add_option("--metric", arguments->metric, "A question of --list by its name");

@@ -272,11 +272,10 @@ void add_replay(CLI::App& app, int& exit_code) {
   const auto [verb, flags] = add_verb(
       app, exit_code, "replay", "Decide a recorded match again, with other settings or another robot file", replay);
   verb->footer(
-      "The recorded wheel samples, camera frames, commands of the referee and states of the kicker go at their "
-      "recorded\n"
-      "instants through the robot's logic, in this process: open loop, since nothing that it orders happens. It says\n"
-      "first how far the log's own settings give the recorded decisions again, then what it orders beside what was\n"
-      "ordered. `trivela report LOG OUT --html PAGE` shows both.");
+      R"(The recorded wheel samples, camera frames, commands of the referee and states of the kicker go at their recorded
+instants through the robot's logic, in this process: open loop, since nothing that it orders happens. It says
+first how far the log's own settings give the recorded decisions again, then what it orders beside what was
+ordered. `trivela report LOG OUT --html PAGE` shows both.)");
   verb->add_option("log", flags->log, "match log of a recorder, of a robot or in lockstep")->required();
   add_default(*verb, "--out", flags->out, "log of the replay, must not exist");
   verb->add_option("--session", flags->session, "how the uuid of the session begins, where the log has several");

@@ -109,11 +109,9 @@ void add_top(CLI::App& app, int& exit_code) {
   const auto [verb, flags] = add_verb(
       app, exit_code, "top", "Show the bus live: rates, latencies, losses, who writes what, what nodes take", show_bus);
   verb->footer(
-      "Listens and says nothing: no node waits for it. On a terminal it is drawn over until Ctrl-C, in a pipe there is "
-      "a\n"
-      "table, or a line of JSON, each interval. Latency is from the writer's source timestamp to reception, age from "
-      "the\n"
-      "message's t_ns; late counts three periods without a sample.");
+      R"(Listens and says nothing: no node waits for it. On a terminal it is drawn over until Ctrl-C, in a pipe there is a
+table, or a line of JSON, each interval. Latency is from the writer's source timestamp to reception, age from the
+message's t_ns; late counts three periods without a sample.)");
   add_bus_flags(*verb, *flags, "whose [domain] is looked at",
                 "team.toml that says domain and tag: this machine's own bus, with --robot that robot's, else the "
                 "base's; with --dds the domain between the machines");

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "evaluator/compare/asked_comparison.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/table2/table2.hpp"
 #include "python/arrays.hpp"
 

@@ -97,9 +97,8 @@ void add_calibrate_from_log(CLI::App& calibrate, int& exit_code) {
   const auto [verb, flags] =
       add_verb(calibrate, exit_code, "from-log", "A robot's file from its kicks in matches", calibrate_from_log);
   verb->footer(
-      "Each kick whose flight a goal camera saw says something of exit speed, angle, direction, delay and transfer. "
-      "The\n"
-      "robot's file that is there, or --base, is what they are held against: the file that the robot played with.");
+      R"(Each kick whose flight a goal camera saw says something of exit speed, angle, direction, delay and transfer. The
+robot's file that is there, or --base, is what they are held against: the file that the robot played with.)");
   verb->add_option("log", flags->logs, "Match logs")->required()->type_name("LOG");
   verb->add_option("--robot", flags->robot, "Name of the robot")->required();
   add_default(*verb, "--robot-id", flags->robot_id, "Its number in the logs", CLI::Range(1, 255));

@@ -133,8 +133,8 @@ void add_calibrate_plot(CLI::App& calibrate, int& exit_code) {
   const auto [verb, flags] =
       add_verb(calibrate, exit_code, "plot", "parabolas of all powers and trials (Figure 5), and their spread", plot);
   verb->footer(
-      "INPUT as of `calibrate table`: scan records or tables of power, height_m, distance_m. Prints mean and standard\n"
-      "deviation of exit speed, exit angle, range and height for each power: the kicker's repeatability.");
+      R"(INPUT as of `calibrate table`: scan records or tables of power, height_m, distance_m. Prints mean and standard
+deviation of exit speed, exit angle, range and height for each power: the kicker's repeatability.)");
   verb->add_option("input", flags->inputs, "Scan records or tables of numbers; - for standard input")->required();
   verb->add_option("--out", flags->out, "Chart to write, SVG")->required()->type_name("FILE");
   verb->add_option("--columns", flags->columns, "Names of the table's columns in order, - skips one");

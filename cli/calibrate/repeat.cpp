@@ -101,17 +101,17 @@ RepeatReport play_study(const RepeatFlags& flags) {
 }
 
 Json json_of_repeats(const RepeatReport& report, const RepeatFlags& flags) {
-  Json json{{"simulated", true}, {"calibrations", flags.count}, {"seed", flags.seed}, {"figures", Json::array()}};
-  json["kicks"] = {{"mean", report.mean_kicks}, {"most", report.most_kicks}};
-  for (const experiment::StudiedFigure& figure : report.figures) {
-    json["figures"].push_back({{"key", figure.key},
-                               {"calibrations", figure.calibrations},
-                               {"world", figure.world},
-                               {"mean", figure.mean},
-                               {"rms_error", figure.rms},
-                               {"standard_error", figure.mean_se},
-                               {"covered", figure.covered}});
-  }
+  const auto figure_json = [](const experiment::StudiedFigure& figure) {
+    return Json{{"key", figure.key},        {"calibrations", figure.calibrations},
+                {"world", figure.world},    {"mean", figure.mean},
+                {"rms_error", figure.rms},  {"standard_error", figure.mean_se},
+                {"covered", figure.covered}};
+  };
+  Json json{{"simulated", true},
+            {"calibrations", flags.count},
+            {"seed", flags.seed},
+            {"figures", evaluator::json_list(report.figures, figure_json)},
+            {"kicks", {{"mean", report.mean_kicks}, {"most", report.most_kicks}}}};
   if (!report.rates.empty()) json["moving_on_target"] = report.rates;
   return json;
 }
@@ -150,11 +150,9 @@ void add_calibrate_repeat(CLI::App& calibrate_verb, int& exit_code) {
       add_verb(calibrate_verb, exit_code, "repeat",
                "how sure one calibration is: many of them, beside the world's truth", repeat_study);
   verb->footer(
-      "Plays calibrations of `trivela calibrate run --in simulation` in process, one a seed, and compares their "
-      "figures with\n"
-      "the simulated world's: error, standard error, share of the 95 % intervals that contain the truth; and how much "
-      "the\n"
-      "policy moving differs between the robots. No fit sees the world's truth.");
+      R"(Plays calibrations of `trivela calibrate run --in simulation` in process, one a seed, and compares their figures with
+the simulated world's: error, standard error, share of the 95 % intervals that contain the truth; and how much the
+policy moving differs between the robots. No fit sees the world's truth.)");
   add_default(*verb, "--count", flags->count, "calibrations", CLI::Range(2, 10000));
   add_default(*verb, "--seed", flags->seed, "of the first; the next ones follow", CLI::Range(0, 900000));
   add_default(*verb, "--scenario", flags->world, "the world of the matches");

@@ -169,12 +169,11 @@ void add_calibrate_run(CLI::App& calibrate_verb, int& exit_code) {
   const auto [verb, flags] =
       add_verb(calibrate_verb, exit_code, "run", "all test drives, from an uncalibrated robot to its file", calibrate);
   verb->footer(
-      "Plays the drives through the real nodes: standing kicks over the laser (table, exit angle, delay, spreads), "
-      "lateral\n"
-      "passes (alpha), turns on the spot (beta), straight runs (transfer), and a check with the finished robot. Logs,\n"
-      "scans and scenarios stay in --out-dir. Exit code 3: the check was off by more than 0.10 m in height or 0.15 m\n"
-      "sideways (medians).\n"
-      "--in field asks before each step and goes on, started again, where it ended.");
+      R"(Plays the drives through the real nodes: standing kicks over the laser (table, exit angle, delay, spreads), lateral
+passes (alpha), turns on the spot (beta), straight runs (transfer), and a check with the finished robot. Logs,
+scans and scenarios stay in --out-dir. Exit code 3: the check was off by more than 0.10 m in height or 0.15 m
+sideways (medians).
+--in field asks before each step and goes on, started again, where it ended.)");
   add_place_options(*verb, *flags);
   add_drive_options(*verb, *flags);
   add_effort_options(*verb, flags->effort);

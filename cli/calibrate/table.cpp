@@ -134,11 +134,10 @@ void add_calibrate_table(CLI::App& calibrate, int& exit_code) {
   const auto [verb, flags] = add_verb(calibrate, exit_code, "table",
                                       "kick table and exit angle from lobs or measured tables", calibrate_table);
   verb->footer(
-      "INPUT: scan records, or tables (CSV, or columns apart by blanks; # comments) with the columns power, height_m,\n"
-      "distance_m, or power, exit_speed_mps[, exit_angle_deg]. Heights and distances are of the ball's centre "
-      "relative\n"
-      "to where it leaves: for heights over the floor subtract the ball's radius. A file of the robot that exists\n"
-      "keeps its other figures; its comments are not kept.");
+      R"(INPUT: scan records, or tables (CSV, or columns apart by blanks; # comments) with the columns power, height_m,
+distance_m, or power, exit_speed_mps[, exit_angle_deg]. Heights and distances are of the ball's centre relative
+to where it leaves: for heights over the floor subtract the ball's radius. A file of the robot that exists
+keeps its other figures; its comments are not kept.)");
   verb->add_option("input", flags->inputs, "Scan records or tables of numbers; - for standard input")->required();
   verb->add_option("--robot", flags->robot, "Name of the robot")->required();
   verb->add_option("--out", flags->out,

@@ -12,7 +12,7 @@
 #include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/compare/asked_comparison.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/render/gate.hpp"
 #include "evaluator/render/json_values.hpp"
 #include "kicking/text/printable.hpp"
@@ -161,10 +161,9 @@ void add_compare(CLI::App& app, int& exit_code) {
                  "Every table, test and reservation, after the one line; JSON has them anyway");
   verb->add_option("--out", arguments->out, "Write to this file, not to standard output")->type_name("FILE");
   add_gates(*verb, arguments->gates, "'difference_lo(moving)>=0', 'kicks>=50'");
-  verb->footer(
-      "Examples: trivela compare ab.db --outcome truth\n"
-      "          trivela compare --csv kicks.csv --stratify distance\n"
-      "          trivela compare --counts old=34/65 new=100/132    (the paper's Table 2)");
+  verb->footer(R"(Examples: trivela compare ab.db --outcome truth
+          trivela compare --csv kicks.csv --stratify distance
+          trivela compare --counts old=34/65 new=100/132    (the paper's Table 2))");
 }
 
 evaluator::NamedCounts parse_counts(const std::string& argument) {

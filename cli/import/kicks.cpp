@@ -112,8 +112,8 @@ void add_import_kicks(CLI::App& import, int& exit_code) {
       ->type_name("CSV");
   verb->add_option("--out", arguments->out, "Match log to make, must not exist")->required()->type_name("DB");
   verb->footer(
-      "One file is one match. trivela report shows its Table 2, trivela compare compares its policies, also over\n"
-      "several such logs.");
+      R"(One file is one match. trivela report shows its Table 2, trivela compare compares its policies, also over
+several such logs.)");
 }
 
 }  // namespace trivela::cli

@@ -46,8 +46,8 @@ RowVerb align_verb() {
 void add_align(CLI::App& app, int& exit_code) {
   const auto [verb, arguments] = add_verb(app, exit_code, "align", "Is the robot aligned with the target?", run_align);
   verb->footer(
-      "Appends distance_m, offset_right_m (empty: the line of the kick does not meet that of the target), left_m,\n"
-      "right_m and aligned. Columns px, py, tx, ty are in m.");
+      R"(Appends distance_m, offset_right_m (empty: the line of the kick does not meet that of the target), left_m,
+right_m and aligned. Columns px, py, tx, ty are in m.)");
   add_row_flags(*verb, align_verb(), *arguments);
 }
 

@@ -66,10 +66,9 @@ void add_predict(CLI::App& app, int& exit_code) {
   const auto [verb, arguments] = add_verb(
       app, exit_code, "predict", "Where the ball crosses the goal line if the order goes out now", run_predict);
   verb->footer(
-      "Appends x_cross_m, z_cross_m and t_flight_s, empty where the ball never crosses. Free flight without drag; a\n"
-      "negative z_cross_m: it would have touched the floor before the line. Columns px, py, goal_y are in m, vx, vy, "
-      "vk\n"
-      "in m/s, omega in rad/s.");
+      R"(Appends x_cross_m, z_cross_m and t_flight_s, empty where the ball never crosses. Free flight without drag; a
+negative z_cross_m: it would have touched the floor before the line. Columns px, py, goal_y are in m, vx, vy, vk
+in m/s, omega in rad/s.)");
   add_row_flags(*verb, predict_verb({}), arguments->rows);
   add_flight_flags(*verb, arguments->constants);
 }

@@ -101,9 +101,9 @@ void add_solve(CLI::App& app, int& exit_code) {
   const auto [verb, arguments] =
       add_verb(app, exit_code, "solve", "Exit speed and power for a height at a distance", run_solve);
   verb->footer(
-      "Appends v0_mps (robot at rest), vk_exact_mps and vk_paper_mps (moving robot), feasible, descending; with Cd\n"
-      "v0_drag_mps; with --robot power and power_range (below, in or above the table) for vk_exact_mps.\n"
-      "Results of a row that no speed solves are empty. --svg draws vk_exact_mps, towards the middle of the goal.");
+      R"(Appends v0_mps (robot at rest), vk_exact_mps and vk_paper_mps (moving robot), feasible, descending; with Cd
+v0_drag_mps; with --robot power and power_range (below, in or above the table) for vk_exact_mps.
+Results of a row that no speed solves are empty. --svg draws vk_exact_mps, towards the middle of the goal.)");
   add_row_flags(*verb, solve_verb({}, {}), arguments->rows);
   add_flight_flags(*verb, arguments->constants);
   add_default(*verb, "--ball-mass-kg", arguments->constants.ball.mass_kg, "Mass of the ball", above_zero());

@@ -1,4 +1,4 @@
-#include "evaluator/compare/asked_comparison.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

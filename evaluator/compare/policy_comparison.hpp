@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "evaluator/compare/log_differences.hpp"
 #include "evaluator/counting/kick_counts.hpp"
 #include "evaluator/counting/kick_dataset.hpp"
+#include "evaluator/counting/log_kicks.hpp"
 #include "evaluator/render/gate.hpp"
 #include "evaluator/render/json_values.hpp"
 #include "evaluator/stats/clustered.hpp"
@@ -197,5 +200,36 @@ std::string bullet(const std::string& sentence);
 
 /// Breaks a sentence before `width` columns; further lines begin with `indent`.
 std::string wrapped(const std::string& sentence, const std::string& indent, std::size_t width = 110);
+
+/// An option says what makes no sense for this comparison; the message begins with the option.
+struct BadChoice : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// What somebody wants to know of kicks.
+struct ComparisonQuestion {
+  LogKicks kicks{};                                 ///< how logs are read
+  std::string baseline{};                           ///< group that the others are compared with; empty: the first
+  std::string design{};                             ///< label of a Design; empty: what the data say
+  double smallest_effect = stats::kSmallestEffect;  ///< smallest difference of interest, 0 to 1
+};
+
+/// Throws BadChoice where the question makes no sense whatever the kicks are: an unknown design, a smallest effect that
+/// is not between 0 and 1.
+void check(const ComparisonQuestion& question);
+
+/// compare_policies() with that baseline and design. `by` is what the groups are. Throws BadChoice for a baseline that
+/// is no group and for strata that are the groups; std::runtime_error as compare_policies().
+PolicyComparison compare_dataset(KickDataset dataset, const std::string& by, const ComparisonQuestion& question);
+
+/// The sessions of all logs together, with what differs between the logs, and of two logs each group between them.
+/// Throws BadChoice and BadOption, whose messages begin with the option, and std::runtime_error naming a log that
+/// cannot be read.
+PolicyComparison compare_logs(const std::vector<std::filesystem::path>& logs, const ComparisonQuestion& question);
+
+/// Each of `groups`, policies or arms as `by` says, in the later logs against the first: yesterday against today. Their
+/// p are adjusted together. `options` are those of the comparison of the groups.
+std::vector<BetweenLogs> between_logs(const LoggedOpportunities& logged, std::span<const std::string> groups,
+                                      const std::string& by, LogKicks options, double smallest_effect);
 
 }  // namespace trivela::evaluator

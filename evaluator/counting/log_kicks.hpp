@@ -10,8 +10,6 @@
 
 namespace trivela::evaluator {
 
-struct BetweenLogs;
-
 /// What was asked for by one of the options below makes no sense with these logs; the message begins with the option.
 struct BadOption : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -30,10 +28,5 @@ struct LogKicks {
 /// All sessions of the logs together, with the outcomes that they were read for: `options.truth` says which. `by`
 /// becomes what is compared. Throws BadOption where the logs have not what is asked for.
 KickDataset kick_dataset_of(const LoggedOpportunities& logged, const LogKicks& options, std::string& by);
-
-/// Each of `groups`, policies or arms as `by` says, in the later logs against the first: yesterday against today. Their
-/// p are adjusted together. `options` are those of the comparison of the groups.
-std::vector<BetweenLogs> between_logs(const LoggedOpportunities& logged, std::span<const std::string> groups,
-                                      const std::string& by, LogKicks options, double smallest_effect);
 
 }  // namespace trivela::evaluator

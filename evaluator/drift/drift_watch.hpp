@@ -1,15 +1,93 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "evaluator/drift/factor_chart.hpp"
-#include "evaluator/drift/kick_residual.hpp"
+#include "kicking/geometry/frames.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::evaluator {
+
+/// A kick as its robot predicted and saw it; nothing here is a simulator's truth.
+struct WatchedKick {
+  std::int64_t kick_id = 0;
+  std::int64_t t_ns = 0;  ///< of the decision
+  kicking::Pose robot{};  ///< at the decision, in F
+  kicking::Twist twist{};
+  double lead_s = 0.0;                            ///< from the decision to the expected release
+  int policy = 0;                                 ///< that kicked: each predicts with an error of its own
+  double goal_y_m = 0.0;                          ///< where it crosses
+  double x_m = 0.0, z_m = 0.0, t_flight_s = 0.0;  ///< predicted crossing and flight
+  bool seen_to_the_line = false;                  ///< not blocked, outcome known
+  bool bounced = false;                           ///< it touched the floor before the line
+  kicking::Maybe z_cross_m{};                     ///< observed
+  kicking::Maybe exit_speed_mps{};                ///< observed, of the ball over ground
+};
+
+/// By how much a kick was stronger than predicted, measured twice: 0.03 is 3 % more speed out of the kicker. It is ln f
+/// of the factor f by which the kicker's part of the ball's velocity would explain what was seen.
+struct KickResidual {
+  std::optional<double> height;  ///< out of where it crossed: (z - z predicted) / (dz / d ln f)
+  bool height_at_most = false;   ///< it bounced: free flight would have been at the floor or below
+  std::optional<double> speed;   ///< out of its exit speed: ln(v / v predicted) / (d ln v / d ln f)
+  int group = 0;                 ///< kicks whose predictions have one error in common: the policy
+  double metres = 0.0;           ///< dz / d ln f, m: height that a residual of 1 is
+};
+
+/// The residuals of a kick; empty where it has no such prediction, or was not seen to the line. The predicted velocity
+/// at the release is that of the drag-free flight from where the robot is then to the predicted crossing; the robot's
+/// own motion at the ball's place (v + omega x r) is not the kicker's and does not scale with f:
+///   dz / d ln f = v_z t (1 - q) + g t^2 q,  q = k . e / |e|^2,  k = e - (v + omega x r),
+/// with e the horizontal velocity and t the time of flight.
+KickResidual residual_of(const WatchedKick& kick);
+
+/// How a chart judges.
+struct ChartRule {
+  double shift = 0.03;         ///< change of the mean that it is made for, either way
+  double limit = 7.2;          ///< nats: it alarms above
+  double expected_sd = 0.025;  ///< of one residual, before there are any; counts as so many residuals:
+  double expected_weight = 10.0;
+  int quiet = 20;     ///< first residuals of a group, which make its mean and are not judged
+  double clip = 2.0;  ///< standard deviations: one residual counts as no farther off
+};
+
+/// A two-sided CUSUM (Page 1954) of residuals whose mean and spread are not known beforehand: each is judged by those
+/// of its group before it, then joins them; the spread is that of all. An increment is the logarithm of the likelihood
+/// ratio of a mean that has moved by `shift` to one that has not; with known parameters the mean run length without a
+/// change is at least e^limit a side (Lorden 1971). Of a residual that is only known to be at most x the likelihood is
+/// that of all below.
+class FactorChart {
+ public:
+  explicit FactorChart(const ChartRule& rule) : rule_(rule) {}
+
+  /// True: it has left its limit.
+  bool add(double x, bool at_most, int group = 0);
+
+  double up() const { return up_; }
+  double down() const { return down_; }
+  double sd() const;
+
+ private:
+  struct Group {
+    std::size_t count = 0;
+    double mean = 0.0;
+  };
+  void judge(const Group& group, double x, bool at_most);
+
+  ChartRule rule_;
+  std::map<int, Group> groups_;
+  std::size_t known_ = 0;  // residuals beyond the first of each group
+  double squares_ = 0.0;   // sum of squares about the groups' means
+  double up_ = 0.0, down_ = 0.0;
+};
+
+/// Mean of a normal variable given that it is at most `c` [standard deviations about its mean], in those: -phi / Phi.
+double mean_below(double c);
 
 /// The two charts of a robot. Limits are chosen by run lengths that were measured (docs/drift.md).
 struct DriftRule {

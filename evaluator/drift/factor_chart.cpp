@@ -1,4 +1,4 @@
-#include "evaluator/drift/factor_chart.hpp"
+#include "evaluator/drift/drift_watch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "evaluator/drift/kick_residual.hpp"
+#include "evaluator/drift/drift_watch.hpp"
 
 #include <Eigen/Core>
 #include <cmath>

@@ -200,24 +200,21 @@ std::string to_text(const DriftReport& report) {
 }
 
 std::string to_json(const DriftReport& report) {
-  Json robots = Json::array();
-  for (const RobotDrift& robot : report.robots) {
-    Json drifts = Json::array();
-    for (const Drift& drift : robot.story.drifts) drifts.push_back(drift_json(robot, drift));
+  const auto robot_json = [](const RobotDrift& robot) {
     const DriftLevel& now = robot.story.level;
-    robots.push_back({{"robot", robot.robot_id},
-                      {"simulated", robot.simulated},
-                      {"kicks", robot.kicks.size()},
-                      {"sessions", robot.sessions},
-                      {"drifts", drifts},
-                      {"level",
-                       {{"from_kick", now.from + 1},
-                        {"heights", now.heights},
-                        {"ln_speed_by_heights", shift_json(now.height)},
-                        {"exit_speeds", now.speeds},
-                        {"ln_speed_by_exit_speeds", shift_json(now.speed)}}}});
-  }
-  return json_text(Json{{"robots", robots}, {"remarks", report.remarks}});
+    return Json{{"robot", robot.robot_id},
+                {"simulated", robot.simulated},
+                {"kicks", robot.kicks.size()},
+                {"sessions", robot.sessions},
+                {"drifts", json_list(robot.story.drifts, [&](const Drift& drift) { return drift_json(robot, drift); })},
+                {"level",
+                 {{"from_kick", now.from + 1},
+                  {"heights", now.heights},
+                  {"ln_speed_by_heights", shift_json(now.height)},
+                  {"exit_speeds", now.speeds},
+                  {"ln_speed_by_exit_speeds", shift_json(now.speed)}}}};
+  };
+  return json_text(Json{{"robots", json_list(report.robots, robot_json)}, {"remarks", report.remarks}});
 }
 
 }  // namespace trivela::evaluator

@@ -1,4 +1,4 @@
-#include "evaluator/table2/report_rows.hpp"
+#include "evaluator/table2/report_parts.hpp"
 
 #include <map>
 #include <set>

@@ -10,7 +10,7 @@
 #include "evaluator/metrics/refused_orders.sql.hpp"
 #include "evaluator/metrics/truth_agreement.sql.hpp"
 #include "evaluator/metrics/unclosed_kicks.sql.hpp"
-#include "evaluator/table2/report_rows.hpp"
+#include "evaluator/table2/report_parts.hpp"
 
 namespace trivela::evaluator {
 namespace {

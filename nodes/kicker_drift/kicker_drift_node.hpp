@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "evaluator/drift/kick_residual.hpp"
+#include "evaluator/drift/drift_watch.hpp"
 #include "idl/messages.hpp"
 #include "nodes/runtime/node_context.hpp"
 
