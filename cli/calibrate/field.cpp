@@ -182,7 +182,7 @@ int play_in(Field field, const RunFlags& flags, const calibration::RobotUpdate& 
   std::error_code none;
   fs::remove(part, none);
   const experiment::AimErrors observed = experiment::observed_errors(checked.kicks, settings);
-  report.finish(run.robot(), file.string(), observed);
+  RunReport::finish(run.robot(), file.string(), observed);
   return passes_gate(observed) ? kDone : kDoneWithLoss;
 }
 

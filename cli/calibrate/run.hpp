@@ -50,29 +50,27 @@ class RunReport {
     document_["drives"].push_back(json_of_drive(summary));
   }
 
-  /// On a field, where nobody knows the truth. `check`: what was played, in words.
-  void finish(const calibration::RobotUpdate& update, const std::string& file, const experiment::AimErrors& observed,
-              const std::string& check = "stopped, as the robot saw it") {
-    begin(update, file, observed);
-    if (json_) {
-      fmt::print("{}", evaluator::json_text(document_));
-      return;
-    }
-    say_changes(update, observed, check);
+  /// On a field, where nobody knows the truth.
+  static void finish(const calibration::RobotUpdate& update, const std::string& file,
+                     const experiment::AimErrors& observed) {
+    say_changes(update, observed, "stopped, as the robot saw it");
     fmt::print("\n{}\n", file);
   }
 
   void finish(const calibration::RobotUpdate& update, const std::string& file, const experiment::AimErrors& observed,
               const experiment::AimErrors& truth, const std::vector<experiment::WorldFigure>& world) {
-    begin(update, file, observed);
-    evaluator::Json simulator{{"check", json_of_aim(truth)}, {"figures", evaluator::Json::array()}};
-    for (const experiment::WorldFigure& figure : world) {
-      simulator["figures"].push_back({{"key", figure.key},
-                                      {"calibrated", figure.calibrated},
-                                      {"world", figure.world},
-                                      {"difference", figure.calibrated - figure.world}});
-    }
-    document_["simulator_truth"] = std::move(simulator);
+    const auto figure_json = [](const experiment::WorldFigure& figure) {
+      return evaluator::Json{{"key", figure.key},
+                             {"calibrated", figure.calibrated},
+                             {"world", figure.world},
+                             {"difference", figure.calibrated - figure.world}};
+    };
+    document_["file"] = file;
+    document_["robot"] = update.robot().name;
+    document_["changes"] = update.changes();
+    document_["check"] = json_of_aim(observed);
+    document_["simulator_truth"] = {{"check", json_of_aim(truth)},
+                                    {"figures", evaluator::json_list(world, figure_json)}};
     if (json_) {
       fmt::print("{}", evaluator::json_text(document_));
       return;
@@ -88,13 +86,6 @@ class RunReport {
   }
 
  private:
-  void begin(const calibration::RobotUpdate& update, const std::string& file, const experiment::AimErrors& observed) {
-    document_["file"] = file;
-    document_["robot"] = update.robot().name;
-    document_["changes"] = update.changes();
-    document_["check"] = json_of_aim(observed);
-  }
-
   static void say_changes(const calibration::RobotUpdate& update, const experiment::AimErrors& observed,
                           const std::string& check) {
     fmt::print("\n");
