@@ -19,6 +19,10 @@ namespace {
 using kicking::Pose;
 using Values = std::span<const log::Value>;
 
+// How far a story goes from the decision, and how fine it is.
+constexpr double kBefore_s = 1.5, kLongest_s = 6.0, kStep_s = 0.04;
+constexpr double kAfter_s = 0.3;                                // what settled the kick
+constexpr double kUnsettled_s = 2.0;                            // where nothing did
 constexpr double kRobotJump_m = 0.5, kFastestRobot_mps = 10.0;  // what is farther apart was not driven
 
 std::optional<double> seconds_after(std::int64_t t_ns, std::optional<std::int64_t> then_ns) {
@@ -80,13 +84,13 @@ std::vector<KickTimeline> listed_kicks(const log::Reader& reader) {
 /// Streams of one kick's robot around the kick.
 class KickStreams {
  public:
-  KickStreams(const log::Reader& reader, const TimelinePlan& plan) : reader_(reader), plan_(plan) {}
+  explicit KickStreams(const log::Reader& reader) : reader_(reader) {}
 
   void fill(KickTimeline& timeline) {
-    from_ns_ = timeline.t_ns - kicking::nanoseconds(plan_.before_s);
-    double end_s = plan_.unsettled_s;
-    if (timeline.observed && timeline.observed->after_s) end_s = *timeline.observed->after_s + plan_.after_s;
-    to_ns_ = timeline.t_ns + kicking::nanoseconds(std::clamp(end_s, 0.0, plan_.longest_s));
+    from_ns_ = timeline.t_ns - kicking::nanoseconds(kBefore_s);
+    double end_s = kUnsettled_s;
+    if (timeline.observed && timeline.observed->after_s) end_s = *timeline.observed->after_s + kAfter_s;
+    to_ns_ = timeline.t_ns + kicking::nanoseconds(std::clamp(end_s, 0.0, kLongest_s));
     read_world(timeline);
     read_flight(timeline);
     read_opponent(timeline);
@@ -103,7 +107,7 @@ class KickStreams {
 
   /// Whether a sample at this instant is the first of its step.
   bool begins_step(std::int64_t t_ns, std::optional<std::int64_t>& last) const {
-    const auto step = (t_ns - from_ns_) / kicking::nanoseconds(plan_.step_s);
+    const auto step = (t_ns - from_ns_) / kicking::nanoseconds(kStep_s);
     return std::exchange(last, step) != step;
   }
 
@@ -207,7 +211,6 @@ class KickStreams {
   }
 
   const log::Reader& reader_;
-  TimelinePlan plan_;
   std::int64_t from_ns_ = 0, to_ns_ = 0;
   std::vector<TimelinePose> world_;  // every row of the timeline's time
 };
@@ -238,13 +241,11 @@ void add_half_time(const log::Reader& reader, KickTimeline& timeline) {
       });
 }
 
-void add_tracks(const log::Reader& reader, KickTimeline& timeline, const TimelinePlan& plan) {
-  KickStreams(reader, plan).fill(timeline);
-}
+void add_tracks(const log::Reader& reader, KickTimeline& timeline) { KickStreams(reader).fill(timeline); }
 
-std::vector<KickTimeline> kick_timelines(const log::Reader& reader, const TimelinePlan& plan) {
+std::vector<KickTimeline> kick_timelines(const log::Reader& reader) {
   std::vector<KickTimeline> timelines = kicks_without_tracks(reader);
-  for (KickTimeline& timeline : timelines) add_tracks(reader, timeline, plan);
+  for (KickTimeline& timeline : timelines) add_tracks(reader, timeline);
   return timelines;
 }
 

@@ -66,15 +66,6 @@ struct KickTimeline {
   std::optional<TimelineEnd> truth;  ///< of the simulator
 };
 
-/// How far a story goes, and how fine it is.
-struct TimelinePlan {
-  double before_s = 1.5;   ///< the decision
-  double after_s = 0.3;    ///< what settled the kick
-  double unsettled_s = 2;  ///< after the decision, where nothing did
-  double longest_s = 6.0;  ///< after the decision
-  double step_s = 0.04;    ///< a sample in each
-};
-
 /// The log's kicks that count, with their pitch and without their tracks, as kick_timelines() orders them. Throws
 /// std::runtime_error where the log cannot be read.
 std::vector<KickTimeline> kicks_without_tracks(const log::Reader& reader);
@@ -84,11 +75,11 @@ std::vector<KickTimeline> kicks_without_tracks(const log::Reader& reader);
 void add_half_time(const log::Reader& reader, KickTimeline& story);
 
 /// Adds the tracks, and the time of the half. Throws std::runtime_error where the log cannot be read.
-void add_tracks(const log::Reader& reader, KickTimeline& story, const TimelinePlan& plan = {});
+void add_tracks(const log::Reader& reader, KickTimeline& story);
 
 /// The stories of the log's kicks that count, in the order of their time; refused orders are none. Throws
 /// std::runtime_error where the log cannot be read.
-std::vector<KickTimeline> kick_timelines(const log::Reader& reader, const TimelinePlan& plan = {});
+std::vector<KickTimeline> kick_timelines(const log::Reader& reader);
 
 /// For replay() of evaluator/story/replay.js: whole centimetres, milliseconds after the decision and
 /// milliradians; kick_id and session_id as texts, since JavaScript's numbers do not hold them; nothing for what is
