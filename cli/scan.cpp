@@ -49,6 +49,11 @@ void add_synthetic_flags(CLI::App& verb, SyntheticFlags& flags) {
   };
   spread("--speed-sd-mps", flags.speed_sd_mps, 1.0, "synthetic: spread of the kicker's speed");
   spread("--angle-sd-deg", flags.angle_sd_deg, 10.0, "synthetic: spread of the kicker's angle");
+  spread("--range-sd-m", flags.range_sd_m, 0.5, "synthetic: noise of a range");
+  spread("--dropout-ratio", flags.dropout_ratio, 1.0, "synthetic: beams without an answer");
+  spread("--mixed-ratio", flags.mixed_ratio, 1.0, "synthetic: edges of the ball that read something behind it");
+  add_default(verb, "--scanner", flags.scanner, "synthetic: utm-30lx or urg-04lx",
+              CLI::IsMember({"utm-30lx", "urg-04lx"}));
 }
 
 int run(const ScanFlags& flags) {

@@ -13,12 +13,25 @@ namespace {
 
 constexpr std::int64_t kEntered_ns = 300'000'000;  // the operator enters a set-point so long before the kick
 
-sim::LaserModel laser_model(const MountFlags& mount) {
+sim::LaserModel laser_model(const SyntheticFlags& flags, const MountFlags& mount) {
   sim::LaserModel laser;
   laser.x_m = mount.laser_x_m;
   laser.z_m = mount.laser_z_m;
   laser.front_elevation_rad = kicking::radians(mount.front_elevation_deg);
   laser.mirrored = mount.mirrored;
+  laser.range_sd_m = flags.range_sd_m;
+  laser.dropout_ratio = flags.dropout_ratio;
+  laser.mixed_ratio = flags.mixed_ratio;
+  if (flags.scanner == "urg-04lx") {  // steps 44 to 725, front 384, 1024 a revolution (SCIP 2.0 specification table)
+    const double step_rad = kicking::radians(360.0 / 1024.0);
+    laser.geometry = {.beams = 682,
+                      .first_angle_rad = (44 - 384) * step_rad,
+                      .step_rad = step_rad,
+                      .beam_period_s = 0.1 / 1024.0,
+                      .scan_period_s = 0.1,
+                      .min_range_m = 0.02,
+                      .max_range_m = 5.6};
+  }
   return laser;
 }
 
@@ -57,10 +70,10 @@ void write_truth(const std::string& path, const std::vector<sim::KickedTruth>& t
 }  // namespace
 
 SyntheticScans synthesize(const SyntheticFlags& flags, const MountFlags& mount) {
-  const sim::LaserModel laser = laser_model(mount);
+  const sim::LaserModel laser = laser_model(flags, mount);
   SyntheticScans made;
   made.record = sim::synthesize_record(laser, {.kicks = kicks_of(flags)}, sim::BallPhysics{}, flags.seed);
-  made.session = {.identity = {"synthetic", "utm-30lx", fmt::format("seed {}", flags.seed), "", "none"},
+  made.session = {.identity = {"synthetic", flags.scanner, fmt::format("seed {}", flags.seed), "", "none"},
                   .geometry = laser.geometry,
                   .mount = made.record.mount,
                   .simulated = true,

@@ -38,7 +38,7 @@ inline void add_mount_flags(CLI::App& verb, MountFlags& flags) {
 /// Stands wherever synthetic scans are made or shown.
 inline constexpr char kSyntheticNotice[] = "synthetic scans: no public laser scan of a flying ball exists";
 
-/// What the kicks of a synthetic record are.
+/// What the kicks of a synthetic record are, and how well the scanner sees.
 struct SyntheticFlags {
   std::uint64_t seed = 1;
   int lobs = 2;  ///< of each speed
@@ -48,6 +48,10 @@ struct SyntheticFlags {
   double cd = 0.25;
   double speed_sd_mps = 0.0;
   double angle_sd_deg = 0.0;
+  double range_sd_m = sim::LaserModel{}.range_sd_m;
+  double dropout_ratio = sim::LaserModel{}.dropout_ratio;
+  double mixed_ratio = sim::LaserModel{}.mixed_ratio;
+  std::string scanner = "utm-30lx";  ///< or "urg-04lx"
 };
 
 /// A synthetic record and what it says about itself.
