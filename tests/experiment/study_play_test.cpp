@@ -1,0 +1,215 @@
+// The engine of every study: what is known is not played again, and parts make the rows of one run.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "experiment/run/arms.hpp"
+#include "experiment/study/comparisons.hpp"
+#include "experiment/study/play.hpp"
+#include "log/file/new_file.hpp"
+#include "tests/support/folder.hpp"
+
+namespace trivela::experiment {
+namespace {
+
+using log::MatchRange;
+using log::StudyResults;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::ThrowsMessage;
+
+constexpr const char* kArguments = "seed = 3\n";
+const PlayPlan kPlan{.seed = 3, .matches = 4, .possessions = 4, .jobs = 2};
+
+Arm arm_called(const std::string& name, kicking::PolicyName policy) {
+  Arm made;
+  made.name = name;
+  made.policy = policy;
+  return made;
+}
+
+std::vector<Arm> stopped_and_moving() {
+  return {arm_called("stopped", kicking::PolicyName::kStopped), arm_called("moving", kicking::PolicyName::kMoving)};
+}
+
+struct Played {
+  KnownPlay known;
+  std::size_t missing = 0;  ///< matches that had to be played
+};
+
+Played play_shard(StudyResults& results, const MatchRange& range, const std::vector<Arm>& arms = stopped_and_moving(),
+                  const PlayPlan& plan = kPlan) {
+  Played made;
+  made.known =
+      play_missing({}, arms, plan, "test", range, results, [&](std::size_t, std::size_t all) { made.missing = all; });
+  results.commit();
+  return made;
+}
+
+/// The matches of one run without a file.
+std::vector<ArmTally> of_one_run(const std::vector<Arm>& arms = stopped_and_moving(), const PlayPlan& plan = kPlan) {
+  StudyResults results{"", kArguments, plan.matches};
+  return play_shard(results, {0, plan.matches}, arms, plan).known.arms;
+}
+
+TEST(StudyPlay, TheMatchesOfAFileAreNotPlayedAgain) {
+  const tests::Folder folder;
+  {
+    StudyResults results{folder / "a.db", kArguments, 4};
+    EXPECT_EQ(play_shard(results, {0, 3}).missing, 6u);
+  }
+  StudyResults results{folder / "a.db", kArguments, 4};
+  EXPECT_EQ(results.size(), 6);
+  const Played rest = play_shard(results, {0, 4});
+  EXPECT_EQ(rest.missing, 2u);
+  EXPECT_TRUE(rest.known.whole);
+  EXPECT_EQ(rest.known.arms, of_one_run());
+  EXPECT_EQ(play_shard(results, {0, 4}).missing, 0u);
+}
+
+TEST(StudyPlay, AShardPlaysItsOwnMatchesAndIsNotTheWhole) {
+  StudyResults results{"", kArguments, 4};
+  const Played part = play_shard(results, {1, 3});
+  EXPECT_EQ(part.missing, 4u);
+  EXPECT_FALSE(part.known.whole);
+  const auto all = of_one_run();
+  for (const std::size_t i : {0u, 1u}) {
+    EXPECT_EQ(part.known.arms[i][0], MatchTally{});
+    EXPECT_EQ(part.known.arms[i][1], all[i][1]);
+    EXPECT_EQ(part.known.arms[i][2], all[i][2]);
+    EXPECT_EQ(part.known.arms[i][3], MatchTally{});
+  }
+}
+
+TEST(StudyPlay, ShardsInAnyOrderAreTheRowsOfOneRun) {
+  const tests::Folder folder;
+  for (const std::uint32_t shard : {0u, 1u}) {
+    StudyResults results{folder / std::to_string(shard), kArguments, 4};
+    play_shard(results, {2 * shard, 2 * shard + 2});
+  }
+  StudyResults all{"", kArguments, 4};
+  for (const char* const shard : {"1", "0", "1"}) all.take_over(folder / shard);
+  const Played put_together = play_shard(all, {0, 4});
+  EXPECT_EQ(put_together.missing, 0u);
+  EXPECT_TRUE(put_together.known.whole);
+  EXPECT_EQ(put_together.known.arms, of_one_run());
+}
+
+TEST(StudyPlay, ResultsInMemoryAreSavedAsAFileThatGoesOn) {
+  const tests::Folder folder;
+  {
+    StudyResults results{"", kArguments, 4};
+    play_shard(results, {0, 2});
+    results.save(folder / "a.db");
+  }
+  StudyResults results{folder / "a.db", kArguments, 4};
+  EXPECT_EQ(play_shard(results, {0, 4}).missing, 4u);
+}
+
+TEST(StudyPlay, AnArmThatIsThereTwiceIsPlayedOnceAndCountsTwice) {
+  std::vector<Arm> arms = stopped_and_moving();
+  arms.push_back(arms.front());
+  StudyResults results{"", kArguments, 4};
+  const Played once = play_shard(results, {0, 4}, arms);
+  EXPECT_EQ(once.missing, 8u);
+  EXPECT_EQ(once.known.arms[2], once.known.arms[0]);
+  EXPECT_TRUE(once.known.whole);
+}
+
+TEST(StudyPlay, NoMatchStandsForOneOfAnotherSeedLengthOrWorld) {
+  StudyResults results{"", kArguments, 4};
+  play_shard(results, {0, 4});
+  PlayPlan other = kPlan;
+  other.seed = 4;
+  EXPECT_EQ(play_shard(results, {0, 4}, stopped_and_moving(), other).missing, 8u);
+  other = kPlan;
+  other.possessions = 5;
+  EXPECT_EQ(play_shard(results, {0, 4}, stopped_and_moving(), other).missing, 8u);
+  sim::Scenario world;
+  world.keeper.enabled = !world.keeper.enabled;
+  std::size_t missing = 0;
+  play_missing(world, stopped_and_moving(), kPlan, "test", {0, 4}, results,
+               [&](std::size_t, std::size_t all) { missing = all; });
+  EXPECT_EQ(missing, 8u);
+}
+
+TEST(StudyPlay, OtherCalibrationsAreOtherMatchesButForAnArmWithRobotsOfItsOwn) {
+  std::vector<Arm> arms = stopped_and_moving();
+  arms[1].own_robots = true;
+  StudyResults results{"", kArguments, 4};
+  play_shard(results, {0, 4}, arms);
+  PlayPlan calibrated = kPlan;
+  config::Robot late;
+  late.model.delay_s = 0.09;
+  calibrated.calibrations = {{config::Robot{}}, {late}};
+  const Played again = play_shard(results, {0, 4}, arms, calibrated);
+  EXPECT_EQ(again.missing, 4u) << "those of the first arm";
+  EXPECT_EQ(again.known.arms[0][0].calibration, 0u);
+  EXPECT_EQ(again.known.arms[0][3].calibration, 1u);
+}
+
+TEST(StudyPlay, WhereItIsStoppedTheFileHasWhatWasReportedAndNoMore) {
+  const tests::Folder folder;
+  struct Enough {};
+  {
+    StudyResults results{folder / "a.db", kArguments, 4};
+    const auto stop = [](std::size_t done, std::size_t) {
+      if (done == 3) throw Enough{};
+    };
+    EXPECT_THROW(play_missing({}, stopped_and_moving(), kPlan, "test", {0, 4}, results, stop), Enough);
+    results.commit();
+  }
+  StudyResults results{folder / "a.db", kArguments, 4};
+  EXPECT_EQ(results.size(), 3);
+  EXPECT_EQ(play_shard(results, {0, 4}).known.arms, of_one_run());
+}
+
+TEST(StudyPlay, AFileOfOtherArgumentsIsRefusedWithTheLineThatDiffers) {
+  const tests::Folder folder;
+  { const StudyResults begun{folder / "a.db", "seed = 3\npossessions = 4\n", 4}; }
+  EXPECT_THAT([&] { StudyResults(folder / "a.db", "seed = 3\npossessions = 5\n", 4); },
+              ThrowsMessage<log::FileTaken>(
+                  AllOf(HasSubstr("a.db"), HasSubstr("possessions = 4"), HasSubstr("possessions = 5"))));
+  std::ofstream{folder / "text.db"} << "kick, outcome\n1, goal\n, and so on for more than a page of a database\n";
+  EXPECT_THAT([&] { StudyResults(folder / "text.db", kArguments, 4); },
+              ThrowsMessage<log::FileTaken>(HasSubstr("text.db: is there already and has no study results")));
+}
+
+TEST(StudyPlay, AForeignShardAndOneThatSaysSomethingElseLeaveTheResultsAsTheyAre) {
+  const tests::Folder folder;
+  for (const auto& [name, arguments] : {std::pair{"ours.db", kArguments}, std::pair{"foreign.db", "seed = 4\n"}}) {
+    StudyResults results{folder / name, arguments, 4};
+    play_shard(results, {0, 2});
+    results.finish();
+  }
+  std::filesystem::copy_file(folder / "ours.db", folder / "changed.db");
+  SQLite::Database{(folder / "changed.db").string(), SQLite::OPEN_READWRITE}.exec(
+      "UPDATE tallies SET kicks = 77 WHERE match_id = 1; UPDATE tallies SET match_id = 3 WHERE match_id = 0");
+  StudyResults all{"", kArguments, 4};
+  all.take_over(folder / "ours.db");
+  EXPECT_THAT([&] { all.take_over(folder / "foreign.db"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("foreign.db: has results of another study")));
+  EXPECT_THAT([&] { all.take_over(folder / "changed.db"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("changed.db: says something else of match 1")));
+  EXPECT_EQ(all.size(), 4) << "match 3 of the changed one is not taken either";
+}
+
+TEST(StudyPlay, ArgumentsOfAStudyNameWhatEachWorldHasOfItsOwn) {
+  const config::NamedWorld usual{"as it is", "", {}};
+  config::NamedWorld slow{"slow", "", {}};
+  slow.scenario.keeper.guard.reaction_s += 0.25;
+  const std::string text = arguments_of(robustness_study(stopped_and_moving(), "stopped", {usual, slow}));
+  const auto own = text.find("\n### slow\nstopped\nmoving\n");
+  ASSERT_NE(own, std::string::npos);
+  EXPECT_THAT(text.substr(own), AllOf(HasSubstr("keeper.reaction_s = "), Not(HasSubstr("keeper.enabled"))));
+  slow.scenario.keeper.guard.reaction_s += 0.25;
+  EXPECT_NE(arguments_of(robustness_study(stopped_and_moving(), "stopped", {usual, slow})), text);
+  std::vector<Arm> other = stopped_and_moving();
+  other[1].settings.policy.settle_s += 0.1;
+  EXPECT_NE(arguments_of(arms_study({}, other)), arguments_of(arms_study({}, stopped_and_moving())));
+}
+
+}  // namespace
+}  // namespace trivela::experiment
