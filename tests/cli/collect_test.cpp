@@ -1,6 +1,7 @@
 // Logs fetched by a real rsync, over a stand-in for ssh that runs the host's command here.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <fstream>
 #include <iterator>
 
@@ -124,6 +125,63 @@ TEST(LogHosts, AreReadOrRefused) {
 TEST(Programs, AreMissedByName) {
   EXPECT_NO_THROW(require_program("sh", "never"));
   EXPECT_THROW(require_program("no-such-program", "apt-get install it"), std::runtime_error);
+}
+
+TEST_F(Collect, EndsWithWhatIsMissingAndItsExitCode) {
+  record("done.db", 2);
+  evaluator::MatchLog match(path("robot") / "now.db", session(), options());
+  match.kicks(1, "on_target", 1);
+  match.writer().flush();
+  const VerbRun run = run_verbs({add_collect}, {"collect", "team@robot3", "nobody:logs", "--path", path("robot"),
+                                                "--to", path("here"), "--ssh", path("ssh")});
+  EXPECT_EQ(run.exit_code, kDoneWithLoss);
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("\nmissing:\n"),
+                    HasSubstr("  team@robot3: now.db is being written; collect again when its recorder has ended\n"),
+                    HasSubstr("  nobody: its logs in logs: no route\n")));
+  EXPECT_TRUE(fs::exists(path("here") / "robot3" / "done.db")) << "what can be fetched is fetched";
+}
+
+TEST_F(Collect, ALogWhoseRecorderDiedComesWithItsWriteAheadLog) {
+  {
+    evaluator::MatchLog match(path("open.db"), session(), options());
+    match.kicks(1, "on_target", 3);
+    match.writer().flush();
+    for (const char* const suffix : {"", "-wal"})
+      fs::copy_file(path(std::string("open.db") + suffix), path("robot") / (std::string("dead.db") + suffix));
+  }
+  const fs::path wal = path("robot") / "dead.db-wal", here = path("here") / "robot3";
+  ASSERT_GT(fs::file_size(wal), 0u);
+  EXPECT_THAT(fetched().being_written, ElementsAre("dead.db")) << "it changed a moment ago";
+  fs::last_write_time(wal, fs::file_time_type::clock::now() - std::chrono::minutes(2));
+  EXPECT_EQ(fetched().here, 1);
+  EXPECT_TRUE(fs::exists(here / "dead.db-wal"));
+  EXPECT_EQ(rows_of(log::Reader(here / "dead.db"), "kick_orders"), 3);
+}
+
+TEST_F(Collect, AWriteAheadLogOfBeforeIsNotReadIntoTheLogAsItIsNow) {
+  record("match.db", 2);
+  const fs::path here = path("here") / "robot3";
+  fs::create_directories(here);
+  for (const char* const suffix : {"match.db-wal", "match.db-shm"}) std::ofstream(here / suffix) << "of another time";
+  EXPECT_EQ(fetched().here, 1);
+  EXPECT_FALSE(fs::exists(here / "match.db-wal"));
+  EXPECT_FALSE(fs::exists(here / "match.db-shm"));
+}
+
+TEST_F(Collect, AnEmptyFileIsNoLogAndNamesWithBlanksComeAsTheyAre) {
+  record("semi final's.db", 2);
+  std::ofstream(path("robot") / "begun.db").close();
+  const Fetched all = fetched();
+  EXPECT_EQ(all.logs, 1);
+  EXPECT_EQ(all.here, 1);
+  EXPECT_THAT(all.missing, IsEmpty());
+  EXPECT_TRUE(fs::exists(path("here") / "robot3" / "semi final's.db"));
+}
+
+TEST(LogHosts, APathThatLooksLikeAFlagIsAPath) {
+  EXPECT_EQ(log_host("robot3:-name", "logs").path, "./-name");
+  EXPECT_EQ(log_host("robot3", "-name").path, "./-name");
 }
 
 }  // namespace

@@ -151,5 +151,65 @@ TEST_F(AfterTheMatch, WhileAMatchIsOnNoPageIsServed) {
               HasSubstr("run.match_mode = true: a match is on, and trivela label --serve waits"));
 }
 
+/// Two sessions of one robot in one log, a kick 1:1 in each.
+class OfTwoSessions : public AfterTheMatch {
+ protected:
+  OfTwoSessions() {
+    std::int64_t kick_id = 1;
+    for (const auto& [name, uuid] : {std::pair{"a.db", "aaaa0000-0000-4000-8000-000000000001"},
+                                     std::pair{"b.db", "bbbb0000-0000-4000-8000-000000000001"}}) {
+      log::Session played = session();
+      played.uuid = uuid;
+      played.seed = kick_id;  // the same seed would be the same play
+      evaluator::MatchLog match(path(name), played, options());
+      kick_id += std::int64_t{1} << 48;  // of a session of its own
+      match.write_decision(kick_id, 1);
+      match.order(kick_id);
+      match.receipt(kick_id);
+      match.outcome(kick_id, "on_target");
+      match.close();
+    }
+    said({"merge", both_, path("a.db").string(), path("b.db").string()});
+  }
+
+  std::string said(const Words& words) { return run_verbs({add_label, add_note, add_merge, add_query}, words).out; }
+
+  const std::string both_ = path("both.db").string();
+};
+
+TEST_F(OfTwoSessions, ALabelNeedsTheSessionWhereBothHaveTheKick) {
+  EXPECT_THROW(said({"label", both_, "1:1", "goal", "--by", "Ada"}), std::runtime_error);
+  EXPECT_THROW(said({"label", both_, "1:1", "goal", "--by", "Ada", "--session", "cccc"}), std::runtime_error);
+  EXPECT_THAT(said({"query", both_, "SELECT count(*) AS n FROM labels", "--csv"}), HasSubstr("n\n0\n"));
+  said({"label", both_, "1:1", "goal", "--by", "Ada", "--session", "bbbb"});
+  EXPECT_THAT(said({"query", both_,
+                    "SELECT substr(uuid, 1, 4) AS s, outcome FROM labels JOIN sessions USING (session_id)", "--csv"}),
+              HasSubstr("s,outcome\nbbbb,goal\n"));
+}
+
+TEST_F(OfTwoSessions, ANoteOfOneIsListedWithItAlone) {
+  EXPECT_EQ(said({"note", both_}), "nobody has noted anything\n");
+  EXPECT_EQ(said({"note", both_, "rain", "--by", "Ada", "--session", "bbbb"}), both_ + ": noted of 1 session\n");
+  EXPECT_EQ(said({"note", both_, "--opponent", "Them", "--by", "Ada"}), both_ + ": noted of 2 sessions\n");
+  EXPECT_THAT(said({"note", both_, "--session", "aaaa"}),
+              AllOf(HasSubstr("aaaa0000 Opponent: Them (Ada)\n"), Not(HasSubstr("bbbb")), Not(HasSubstr("rain"))));
+  EXPECT_THAT(said({"note", both_, "--session", "bbbb"}),
+              AllOf(HasSubstr("rain"), HasSubstr("bbbb0000 Opponent: Them (Ada)\n"), Not(HasSubstr("aaaa"))));
+}
+
+TEST_F(OfTwoSessions, ANoteOfASessionThatIsNotThereIsRefused) {
+  EXPECT_THROW(said({"note", both_, "rain", "--by", "Ada", "--session", "cccc"}), std::runtime_error);
+  EXPECT_THROW(said({"note", both_, "--withdraw", "referee", "--by", "Ada"}), CLI::ValidationError);
+  EXPECT_EQ(said({"note", both_}), "nobody has noted anything\n");
+}
+
+TEST_F(OfTwoSessions, AWithdrawalBesideANoteGoesOnlyWhereSomethingHolds) {
+  said({"note", both_, "--venue", "Hall 3", "--by", "Ada", "--session", "aaaa"});
+  EXPECT_EQ(said({"note", both_, "--match", "final", "--withdraw", "venue", "--by", "Ada"}),
+            both_ + ": noted of 2 sessions\n");
+  EXPECT_THAT(said({"query", both_, "SELECT kind, count(*) AS n FROM notes GROUP BY kind ORDER BY kind", "--csv"}),
+              HasSubstr("kind,n\nmatch,2\nvenue,2\n"));
+}
+
 }  // namespace
 }  // namespace trivela::cli

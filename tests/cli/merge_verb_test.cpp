@@ -108,5 +108,38 @@ TEST_F(MergeVerb, LeavesNothingWhereItIsStopped) {
   EXPECT_THAT(files(), testing::UnorderedElementsAre("one.db", "two.db"));
 }
 
+TEST_F(MergeVerb, NeverWritesOverAFileThatIsThere) {
+  const std::string one = robot_log("one.db", 1), two = robot_log("two.db", 2);
+  const auto size = std::filesystem::file_size(one);
+  EXPECT_THROW(said({one, two}), config::BadArgument);
+  EXPECT_EQ(std::filesystem::file_size(one), size);
+}
+
+TEST_F(MergeVerb, SaysWhereNoClockWasMeasuredAgainstTheRobotThatIsNamed) {
+  const std::string one = robot_log("one.db", 1), two = robot_log("two.db", 2);
+  const VerbRun run = run_verbs({add_merge}, {"merge", path("out.db"), one, two, "--reference", "7"});
+  EXPECT_EQ(run.exit_code, kDone);
+  EXPECT_THAT(run.errors, HasSubstr("no clock was measured against that of robot 7"));
+  EXPECT_EQ(run_verbs({add_merge}, {"merge", path("none.db"), one, two}).errors, "") << "nobody asked";
+}
+
+TEST_F(MergeVerb, ThatTwoFilesSayDifferentThingsOfAKickIsAnExitCode) {
+  log::Session played = LogTest::session();
+  played.uuid = "0123abcd-0000-4000-8000-000000000001";
+  for (const auto& [name, label] : {std::pair{"a.db", "goal"}, std::pair{"b.db", "saved"}}) {
+    evaluator::MatchLog match(path(name), played, options());
+    match.kicks(1, "on_target", 2);
+    match.close();
+    run_verbs({add_label}, {"label", path(name), "1:1", label, "--by", "Ada"});
+  }
+  EXPECT_THAT(
+      said({path("out.db"), path("a.db"), path("b.db")}),
+      AllOf(HasSubstr("conflicts, of which the more complete recording counts"), EndsWith("missing: nothing\n")));
+  EXPECT_EQ(exit_code_, kDoneWithLoss);
+  std::filesystem::copy_file(path("a.db"), path("copy.db"));
+  said({path("same.db"), path("a.db"), path("copy.db")});
+  EXPECT_EQ(exit_code_, kDone) << "the same said twice is no conflict";
+}
+
 }  // namespace
 }  // namespace trivela::cli

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "cli/verbs.hpp"
+#include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::cli {
@@ -141,6 +142,52 @@ TEST_F(ReportVerb, WritesToAFileThatItFindsWritableBeforeTheWork) {
     ADD_FAILURE();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("cannot write --out")) << "not that there is no log";
+  }
+}
+
+/// Two of three inside were goals when stopped, one of two when moving, and of one nobody says.
+class ReportGoals : public ReportVerb {
+ protected:
+  ReportGoals() {
+    {
+      evaluator::MatchLog match(path(), session(), options());
+      match.kicks(1, "on_target", 3);
+      match.kicks(2, "on_target", 3);
+      match.kicks(2, "over", 1);
+      match.close();
+    }
+    const auto label = [&](const char* kick, const char* outcome) {
+      run_verbs({add_label}, {"label", path().string(), kick, outcome, "--by", "Ada"});
+    };
+    label("1:1", "goal");
+    label("1:2", "goal");
+    label("1:3", "saved");
+    label("1:4", "goal");
+    label("1:5", "saved");
+  }
+};
+
+TEST_F(ReportGoals, OfSeveralPoliciesAreAddedUpForAGateWithoutASubject) {
+  EXPECT_EQ(run("--gate goals==3 --gate saved==2 --gate 'goals(all)==3' --gate inside==6").exit_code, kDone);
+  EXPECT_EQ(run("--gate goals==2").exit_code, kDoneWithLoss) << "those of the first policy";
+  EXPECT_EQ(run("--gate saved==1").exit_code, kDoneWithLoss);
+}
+
+TEST_F(ReportGoals, OfOnePolicyAreItsOwnForItsGate) {
+  EXPECT_EQ(run("--gate 'goals(stopped)==2' --gate 'saved(stopped)==1' --gate 'goals(moving)==1' --gate "
+                "'saved(moving)==1' --gate 'goals(moving, robot 1)==1'")
+                .exit_code,
+            kDone);
+  const Result missed = run("--json --gate 'goals(moving)>=2'");
+  EXPECT_EQ(missed.exit_code, kDoneWithLoss) << "a ball of which nobody says it is no goal";
+  EXPECT_THAT(missed.err, HasSubstr("gate MISSED: goals(moving)>=2: 1"));
+}
+
+TEST_F(ReportGoals, AGateOfNobodyHasNoDataAndIsMissed) {
+  for (const char* const nobody : {"goals(predictive)>=0", "saved(robot 2)>=0"}) {
+    const Result missed = run(std::string("--gate '") + nobody + "'");
+    EXPECT_EQ(missed.exit_code, kDoneWithLoss) << nobody;
+    EXPECT_THAT(missed.err, HasSubstr("no data")) << nobody;
   }
 }
 
