@@ -8,6 +8,7 @@
 #include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
 #include "cli/study/study.hpp"
+#include "cli/verbs.hpp"
 #include "config/learned_model.hpp"
 #include "evaluator/learning/learned_fit.hpp"
 #include "evaluator/render/json_values.hpp"
