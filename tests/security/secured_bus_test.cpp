@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <random>
 #include <vector>
 
 #include "bus/domain/cyclone.hpp"
@@ -253,20 +254,22 @@ class Tap {
   int socket_;
 };
 
-/// A sample from one to the other whose t_ns are bytes of text; whether these were to be read on the wire.
+/// A sample from one to the other whose t_ns are bytes that nobody else sends; whether these were to be read on the
+/// wire.
 template <bus::Message T>
 bool readable(const DomainConfig& from, const DomainConfig& to) {
-  constexpr std::int64_t kBytes = 0x6c6f'6769'6f54'7254;
+  std::random_device random;
+  const std::int64_t bytes = std::int64_t{0x6c6f'6769} << 32 | random();
   Tap wiretap;
   bus::Reader<T> reader{bus::Participant(to)};
   bus::Writer<T> writer{bus::Participant(from)};
   EXPECT_TRUE(writer.wait_for_readers(1, kPlenty));
   T sample{};
   sample.robot_id = 1;
-  sample.t_ns = kBytes;
+  sample.t_ns = bytes;
   writer.write(sample);
   EXPECT_TRUE(reader.wait(kPlenty));
-  return wiretap.saw({reinterpret_cast<const char*>(&kBytes), sizeof kBytes});
+  return wiretap.saw({reinterpret_cast<const char*>(&bytes), sizeof bytes});
 }
 
 TEST_F(SecuredBus, OrderAndStatusCannotBeReadOnTheWire) {
