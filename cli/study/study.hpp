@@ -42,8 +42,8 @@ struct StudyFlags {
 
   experiment::StudyPlayed played(const sim::Scenario& scenario) const;
 
-  /// Throws, before anything is played, where an output cannot be written or two are the same file, or a shard has no
-  /// place for what it plays or is asked for a report.
+  /// Throws before anything is played: where an output cannot be written or two are the same file, and where a shard
+  /// has no results file or is asked for a report.
   void require_writable() const;
 };
 

@@ -14,9 +14,10 @@ struct MergeReport {
   std::string total;                   ///< a sentence: sessions, robots, rows, kicks
   std::vector<std::string> notes;      ///< sentences on clocks
   std::vector<std::string> conflicts;  ///< sentences on kicks of which two sources say different things
-  /// Sentences on what no file has: files and sessions that could not be read whole, rows lost while they were
-  /// recorded, silences, times in which a robot was recorded by nobody, kicks that its driver counted and that stand in
-  /// no session.
+  /// Sentences on what no file has:
+  /// - files and sessions that could not be read whole, rows that the recorder lost, silences
+  /// - times in which nobody recorded a robot
+  /// - kicks that a driver counted and no session has
   std::vector<std::string> missing;
 };
 

@@ -19,7 +19,7 @@ namespace {
 using kicking::Pose;
 using Values = std::span<const log::Value>;
 
-// How far a story goes from the decision, and how fine it is.
+// How far a replay goes from the decision, and how fine it is.
 constexpr double kBefore_s = 1.5, kLongest_s = 6.0, kStep_s = 0.04;
 constexpr double kAfter_s = 0.3;                                // what settled the kick
 constexpr double kUnsettled_s = 2.0;                            // where nothing did

@@ -17,11 +17,11 @@ inline constexpr double kPaperKickRatio = 132.0 / 65.0;
 /// the extended range of the released code, "exact". Directions go by the paper's lines in all.
 std::vector<std::string> factorial_laws();
 
-/// {old, new table} x ({stopped, moving} x law, predictive), 14 cells of kind "cell"; predictive has no law. Then, as
-/// the paper's two tournaments under one assumption, the old table and `stopped` against the new one and `moving`, both
-/// with `law`: of kind "sweep" by the opponents' median distance [m], of kind "bias" by the common error of the person
-/// who made the old table, to whom balls so much over the target's height seemed to pass at it [m]. `like`: settings
-/// and robots of all; an old table is drawn for each match.
+/// {old, new table} x ({stopped, moving} x law, predictive), 14 cells of kind "cell"; predictive has no law. Then the
+/// old table and `stopped` against the new one and `moving`, as the paper's two tournaments, both with `law`:
+/// - kind "sweep": by the opponents' median distance [m]
+/// - kind "bias": by the error of the person who made the old table [m]; balls so much too high seemed right then
+/// `like`: settings and robots of all. An old table is drawn for each match.
 Study factorial_study(const sim::Scenario& scenario, const Arm& like, const std::string& law,
                       const std::vector<double>& opponent_medians_m, const std::vector<double>& eye_biases_m);
 
