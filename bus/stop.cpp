@@ -16,12 +16,17 @@ namespace trivela::bus {
 namespace {
 
 std::atomic<Stop*> g_stop = nullptr;
+std::atomic<unsigned> g_limit_s = 0;
 struct sigaction g_old_term, g_old_int;
 static_assert(std::atomic<Stop*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<unsigned>::is_always_lock_free);
 
 void on_signal(int) {
   const int saved = errno;
-  if (Stop* stop = g_stop.load()) stop->request();
+  if (Stop* stop = g_stop.load()) {
+    stop->request();
+    alarm(g_limit_s.load());
+  }
   errno = saved;
 }
 
@@ -59,7 +64,8 @@ bool Stop::wait_until(std::chrono::steady_clock::time_point end) const {
   return true;
 }
 
-StopOnSignals::StopOnSignals(Stop& stop) {
+StopOnSignals::StopOnSignals(Stop& stop, std::chrono::seconds limit) {
+  g_limit_s.store(static_cast<unsigned>(limit.count()));
   [[maybe_unused]] Stop* before = g_stop.exchange(&stop);
   assert(before == nullptr);
   struct sigaction action {};
@@ -70,6 +76,7 @@ StopOnSignals::StopOnSignals(Stop& stop) {
 }
 
 StopOnSignals::~StopOnSignals() {
+  alarm(0);
   sigaction(SIGTERM, &g_old_term, nullptr);
   sigaction(SIGINT, &g_old_int, nullptr);
   g_stop.store(nullptr);

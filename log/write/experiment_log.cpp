@@ -91,8 +91,10 @@ std::unique_ptr<SQLite::Database> resume(const fs::path& path, const Experiment&
 }
 
 std::unique_ptr<SQLite::Database> open(const fs::path& path, const Experiment& experiment) {
-  const bool there = fs::exists(path) && (!fs::is_regular_file(path) || fs::file_size(path) > 0);
-  if (!there) make(path, experiment);
+  const bool there = fs::exists(path);
+  if (there && !fs::is_regular_file(path)) throw taken(path, "is no file; choose another");
+  const bool begun = there && fs::file_size(path) > 0;
+  if (!begun) make(path, experiment);
   auto database = resume(path, experiment);
   // A match that a power cut takes is played again: no commit waits for the disk.
   database->exec("PRAGMA synchronous = NORMAL; PRAGMA cache_size = -65536; PRAGMA wal_autocheckpoint = 8000;");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <future>
 #include <thread>
@@ -51,9 +52,28 @@ TEST(Stop, ASignalWakesAThreadThatWaits) {
     stop.wait();
   });
   begun.get_future().wait();
-  pthread_kill(waiting.native_handle(), SIGTERM);
+  pthread_kill(waiting.native_handle(), SIGINT);
   waiting.join();
   EXPECT_TRUE(stop.requested());
+}
+
+TEST(StopDeathTest, AProcessThatHangsAfterASignalIsEndedAtTheLimit) {
+  const auto hang = [] {
+    Stop stop;
+    const StopOnSignals on_signals(stop, std::chrono::seconds{1});
+    raise(SIGTERM);
+    for (;;) pause();
+  };
+  EXPECT_EXIT(hang(), testing::KilledBySignal(SIGALRM), "");
+}
+
+TEST(Stop, NoAlarmIsLeftBehindByAStopInTime) {
+  Stop stop;
+  {
+    const StopOnSignals on_signals(stop);
+    raise(SIGTERM);
+  }
+  EXPECT_EQ(alarm(0), 0U);
 }
 
 TEST(Stop, TheFormerHandlersComeBack) {

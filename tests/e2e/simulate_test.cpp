@@ -114,6 +114,9 @@ TEST(Simulate, RefusesToGoOnWithOtherArguments) {
   Program foreign{"trivela", simulate("mine.db", 2), folder.path()};
   EXPECT_EQ(foreign.wait(), 2) << "as any verb whose output is there already";
   EXPECT_EQ(std::filesystem::file_size(folder / "mine.db"), 6u);
+  Program device{"trivela", simulate("/dev/full", 2), folder.path()};
+  EXPECT_EQ(device.wait(), 2);
+  EXPECT_THAT(device.errors(), HasSubstr("/dev/full: is no file"));
   run(folder, simulate("ab.db", 2));  // there is nothing left to play
 }
 
