@@ -25,8 +25,8 @@ void name_this_thread(const std::string& name) { pthread_setname_np(pthread_self
 
 }  // namespace
 
-Executor::Executor(Kind kind, Stop& stop, std::vector<Node*> nodes, Pulse pulse)
-    : kind_(kind), stop_(stop), nodes_(std::move(nodes)), pulse_(std::move(pulse)) {}
+Executor::Executor(Kind kind, Stop& stop, std::vector<Node*> nodes, WatchdogHook watchdog_hook)
+    : kind_(kind), stop_(stop), nodes_(std::move(nodes)), watchdog_hook_(std::move(watchdog_hook)) {}
 
 void Executor::run() {
   if (kind_ == kListener) {
@@ -102,9 +102,9 @@ bool Executor::in_real_time() const {
 
 void Executor::wait_for_stop() {
   const bool real_time = in_real_time();
-  if (!real_time && !pulse_.beat) return stop_.wait();
+  if (!real_time && !watchdog_hook_.notify) return stop_.wait();
   pollfd stop{stop_.file_descriptor(), POLLIN, 0};
-  for (beat(); !stop_.requested(); beat()) {
+  for (notify(); !stop_.requested(); notify()) {
     poll(&stop, 1, static_cast<int>(kPollInterval.count()));
     if (real_time && !look_after_hearing()) return;
   }
@@ -125,17 +125,17 @@ bool Executor::look_after_hearing() {
   return true;
 }
 
-void Executor::beat() const {
-  if (pulse_.beat && !stop_.requested()) pulse_.beat(late());
+void Executor::notify() const {
+  if (watchdog_hook_.notify && !stop_.requested()) watchdog_hook_.notify(late());
 }
 
 // The first loop or reaction that is; empty: all come round in time.
 std::string Executor::late() const {
   const auto now = Clock::now();
   for (const Node* node : nodes_) {
-    if (node->turn_.late(now, pulse_.timeout)) return node->name();
+    if (node->turn_.late(now, watchdog_hook_.timeout)) return node->name();
     for (const auto& slot : node->slots_)
-      if (slot->turn.late(now, pulse_.timeout)) return slot->reaction.name;
+      if (slot->turn.late(now, watchdog_hook_.timeout)) return slot->reaction.name;
   }
   return {};
 }
@@ -228,7 +228,7 @@ void Executor::take(Slot& slot) noexcept {
     const std::lock_guard lock(slot.running);
     const ReactionScope scope(slot.reaction, kind_ == kListener);
     if (!slot.reader) return;
-    if (pulse_.beat) slot.turn.due(Clock::now());
+    if (watchdog_hook_.notify) slot.turn.due(Clock::now());
     slot.take(*slot.reader);
     slot.turn.idle();
   });

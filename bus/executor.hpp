@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bus/node.hpp"
-#include "bus/pulse.hpp"
 #include "bus/stop.hpp"
+#include "bus/watchdog_hook.hpp"
 
 namespace trivela::bus {
 
@@ -27,7 +27,7 @@ class Executor {
   enum Kind { kWaitset, kListener };
 
   /// The nodes and the stop outlive the executor; a node runs once.
-  Executor(Kind kind, Stop& stop, std::vector<Node*> nodes, Pulse pulse = {});
+  Executor(Kind kind, Stop& stop, std::vector<Node*> nodes, WatchdogHook watchdog_hook = {});
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
 
@@ -45,7 +45,7 @@ class Executor {
   void start_threads();
   void wait_for_stop();
   bool look_after_hearing();
-  void beat() const;
+  void notify() const;
   std::string late() const;
   bool in_real_time() const;
   void give_up(const class BusUnresponsive& deaf);
@@ -65,7 +65,7 @@ class Executor {
   Kind kind_;
   Stop& stop_;
   std::vector<Node*> nodes_;
-  Pulse pulse_;
+  WatchdogHook watchdog_hook_;
   std::atomic<bool> listening_ = false;
   std::atomic<bool> over_ = false;
   std::vector<std::thread> threads_;

@@ -30,7 +30,7 @@ struct Input {
 
   /// When it came last, as LastReceived::ns() has it. Where that was before `before_ns`, looks for what has arrived
   /// since and was not taken yet.
-  std::function<std::int64_t(std::int64_t before_ns)> heard_ns;
+  std::function<std::int64_t(std::int64_t before_ns)> received_ns;
 };
 
 }  // namespace trivela::bus

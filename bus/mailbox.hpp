@@ -63,10 +63,10 @@ class Mailbox {
 
   /// When a sample was taken last (LastReceived::ns()). Where that was before `before_ns`, takes what has arrived,
   /// unless another thread is at it.
-  std::int64_t heard_ns(std::int64_t before_ns) {
-    if (heard_.ns() >= before_ns) return heard_.ns();
+  std::int64_t received_ns(std::int64_t before_ns) {
+    if (received_.ns() >= before_ns) return received_.ns();
     if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) take();
-    return heard_.ns();
+    return received_.ns();
   }
 
   AnyReader& reader() { return reader_; }
@@ -83,7 +83,7 @@ class Mailbox {
       if (robot_id_ && sample.robot_id != *robot_id_) return;
       if (on_each_) on_each_(sample, info);
       latest_ = sample;
-      heard_.now();
+      received_.now();
     });
   }
 
@@ -94,7 +94,7 @@ class Mailbox {
   Waitset waitset_;
   OnEach on_each_;
   std::optional<T> latest_;
-  LastReceived heard_;
+  LastReceived received_;
 };
 
 }  // namespace trivela::bus

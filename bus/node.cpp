@@ -22,14 +22,14 @@ Node::Slot& Node::add(const std::string& what, std::string input, std::vector<st
   return *slot;
 }
 
-void Node::add_input(std::string name, double period_s, std::function<std::int64_t(std::int64_t)> heard_ns) {
-  inputs_.push_back({std::move(name), period_s, std::move(heard_ns)});
+void Node::add_input(std::string name, double period_s, std::function<std::int64_t(std::int64_t)> received_ns) {
+  inputs_.push_back({std::move(name), period_s, std::move(received_ns)});
 }
 
 std::shared_ptr<LastReceived> Node::listen(std::string input, double period_s) {
-  auto heard = std::make_shared<LastReceived>();
-  add_input(std::move(input), period_s, [heard](std::int64_t) { return heard->ns(); });
-  return heard;
+  auto received = std::make_shared<LastReceived>();
+  add_input(std::move(input), period_s, [received](std::int64_t) { return received->ns(); });
+  return received;
 }
 
 std::vector<Reaction> Node::reactions() const {

@@ -12,9 +12,9 @@
 #include "bus/graph.hpp"
 #include "bus/last_received.hpp"
 #include "bus/mailbox.hpp"
-#include "bus/pulse.hpp"
 #include "bus/reaction_scope.hpp"
 #include "bus/reader.hpp"
+#include "bus/watchdog_hook.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
 
@@ -85,7 +85,7 @@ class Node {
     // The mailbox goes with its owner, whom its reader may call.
     add_input(std::string(meta<T>::topic), meta<T>::period_s, [weak = std::weak_ptr(mailbox)](std::int64_t before_ns) {
       const auto owned = weak.lock();
-      return owned ? owned->heard_ns(before_ns) : std::int64_t{0};
+      return owned ? owned->received_ns(before_ns) : std::int64_t{0};
     });
     mailboxes_.push_back([weak = std::weak_ptr(mailbox)] {
       if (const auto owned = weak.lock()) owned->keep_hearing();
@@ -101,11 +101,11 @@ class Node {
     slot.open = [this, options](AnyReader::DataListener listener, void* context) -> std::unique_ptr<AnyReader> {
       return std::make_unique<Reader<T>>(participant_, options, listener, context);
     };
-    const auto heard = listen(std::string(meta<T>::topic), meta<T>::period_s);
-    slot.take = [react = std::move(react), robot_id = robot_id_, heard](AnyReader& reader) mutable {
+    const auto received = listen(std::string(meta<T>::topic), meta<T>::period_s);
+    slot.take = [react = std::move(react), robot_id = robot_id_, received](AnyReader& reader) mutable {
       static_cast<Reader<T>&>(reader).take([&](const T& sample, const SampleInfo& info) {
         if (robot_id && sample.robot_id != *robot_id) return;
-        heard->now();
+        received->now();
         if constexpr (std::is_invocable_v<F&, const T&, const SampleInfo&>)
           react(sample, info);
         else
@@ -119,12 +119,12 @@ class Node {
   template <class Source, class F>
   void on_device(const std::string& device, Source source, F react, std::vector<std::string> outputs = {}) {
     Slot& slot = add(device, "device:" + device, std::move(outputs));
-    const auto heard = listen(slot.reaction.input, 0.0);
+    const auto received = listen(slot.reaction.input, 0.0);
     slot.poll = [source = std::move(source), react = std::move(react),
-                 heard](std::chrono::nanoseconds timeout) mutable {
+                 received](std::chrono::nanoseconds timeout) mutable {
       auto value = source(timeout);
       if (!value) return;
-      heard->now();
+      received->now();
       react(*value);
     };
   }
@@ -177,20 +177,20 @@ class Node {
     bool to_the_last = false;                        // what has arrived when the run ends still counts
     std::unique_ptr<AnyReader> reader;
     std::mutex running;
-    Turn turn;  // of its thread, or of the reaction that runs
+    Deadline turn;  // of its thread, or of the reaction that runs
     class Executor* executor = nullptr;
   };
 
   std::string owner() const;
   Slot& add(const std::string& what, std::string input, std::vector<std::string> outputs);
-  void add_input(std::string name, double period_s, std::function<std::int64_t(std::int64_t)> heard_ns);
+  void add_input(std::string name, double period_s, std::function<std::int64_t(std::int64_t)> received_ns);
   std::shared_ptr<LastReceived> listen(std::string input, double period_s);
 
   Participant participant_;
   std::string name_;
   std::optional<std::uint8_t> robot_id_;
   std::shared_ptr<Guard> interrupt_;
-  Turn turn_;  // of the thread that waits for its topics
+  Deadline turn_;  // of the thread that waits for its topics
   std::vector<std::unique_ptr<Slot>> slots_;
   std::vector<std::string> stored_;
   std::vector<Input> inputs_;

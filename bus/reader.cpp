@@ -199,7 +199,7 @@ std::size_t AnyReader::take_from(std::int32_t reader, Sink sink, void* context) 
       const KnownWriter& writer = writer_of(reader, info.publication_handle);
       if (participant_.hearing() != nullptr) {
         if (!is_new(writer.number, info.source_timestamp)) continue;
-        silence_->heard(Clock::now());
+        silence_->received(Clock::now());
       }
       sink(context, loan.sample(i), {info.source_timestamp, writer.number, writer.member, writer.owner});
       ++taken;

@@ -21,15 +21,15 @@ class ReconnectBackoff {
 
   explicit ReconnectBackoff(std::chrono::nanoseconds first) : first_(first), timeout_(first) {}
 
-  void heard(Time now) {
-    heard_ = since_ = now;
+  void received(Time now) {
+    received_ = since_ = now;
     timeout_ = first_;
     attempts_ = 0;
   }
 
   /// True once it is time to make the reader again; begins the next wait. To be asked several times a second.
   bool due(Time now) {
-    if (!looked_) heard(now);
+    if (!looked_) received(now);
     since_ += std::max<std::chrono::nanoseconds>(now - looked_.value_or(now) - kLongestLook,
                                                  std::chrono::nanoseconds::zero());
     looked_ = now;
@@ -42,7 +42,7 @@ class ReconnectBackoff {
 
   /// How often it was made again since something was heard.
   std::size_t attempts() const { return attempts_; }
-  std::chrono::nanoseconds silent_for(Time now) const { return now - heard_; }
+  std::chrono::nanoseconds silent_for(Time now) const { return now - received_; }
 
  private:
   static constexpr std::chrono::milliseconds kLongestLook{300};
@@ -50,7 +50,7 @@ class ReconnectBackoff {
   std::chrono::nanoseconds first_;
   std::chrono::nanoseconds timeout_;
   Time since_;
-  Time heard_;  // or the first look
+  Time received_;  // or the first look
   std::optional<Time> looked_;
   std::size_t attempts_ = 0;
 };

@@ -11,7 +11,7 @@
 #include "cli/hardware/device_locks.hpp"
 #include "cli/hardware/device_probes.hpp"
 #include "cli/hardware/tasks.hpp"
-#include "cli/launch/person.hpp"
+#include "cli/launch/operator.hpp"
 #include "cli/options/match_mode.hpp"
 #include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
@@ -118,7 +118,7 @@ int spin(const Bench& bench, const HardwareFlags& flags) {
   const std::size_t wheels = bench.robot.base.wheel_angles_rad.size();
   if (static_cast<std::size_t>(*flags.spin) > wheels)
     throw UsageError{fmt::format("--spin {}: {} has wheels 1 to {}", *flags.spin, bench.robot.name, wheels)};
-  if (!Person::is_there()) throw std::runtime_error{"--spin asks before it does it: standard input is no terminal"};
+  if (!Operator::is_there()) throw std::runtime_error{"--spin asks before it does it: standard input is no terminal"};
   bench.claims.require_wheels();
   if (!answers(*hal::open_wheels(bench.settings.hal, bench.owner(), hal::WheelsUse::kListen), bench))
     return no_wheel_turned("stopped");
@@ -128,8 +128,8 @@ int spin(const Bench& bench, const HardwareFlags& flags) {
       "Wheel {} is to turn with {:.2f} rad/s for {:.1f} s, counter-clockwise about the robot's centre where "
       "positive.\nDo all wheels hang free, and nobody's hand near them?\n",
       *flags.spin, what.radps, what.seconds));
-  Person person{bench.signals};
-  if (!person.confirms(fmt::format("spin {}", *flags.spin))) return no_wheel_turned("not confirmed");
+  Operator user{bench.signals};
+  if (!user.confirms(fmt::format("spin {}", *flags.spin))) return no_wheel_turned("not confirmed");
   say("The motors get power now; Ctrl-C stops the wheel.\n");
   std::fflush(stdout);
   const auto device = hal::open_wheels(bench.settings.hal, bench.owner());
@@ -138,12 +138,12 @@ int spin(const Bench& bench, const HardwareFlags& flags) {
 }
 
 int kick(const Bench& bench) {
-  if (!Person::is_there()) throw std::runtime_error{"--kick asks before it does it: standard input is no terminal"};
+  if (!Operator::is_there()) throw std::runtime_error{"--kick asks before it does it: standard input is no terminal"};
   bench.claims.require_kicker();
   const auto device = hal::open_kicker(bench.devices(), bench.owner());
   say_who(bench);
-  Person person{bench.signals};
-  return fire_test_kick(*device, bench.settings, bench.robot, person, bench.signals);
+  Operator user{bench.signals};
+  return fire_test_kick(*device, bench.settings, bench.robot, user, bench.signals);
 }
 
 int run_hardware(const HardwareFlags& flags) {

@@ -90,8 +90,8 @@ int serve(const LabelArguments& arguments) {
     throw UsageError{"--serve: the page asks for kicks, outcomes and names itself"};
   refuse_in_a_match(config::load_settings(arguments.config), "trivela label --serve");
   SignalInbox signals;  // before all threads, which must not take them
-  pages::LabelStore desk(arguments.log);
-  const pages::LabelServer server(desk, arguments.port);
+  pages::LabelStore store(arguments.log);
+  const pages::LabelServer server(store, arguments.port);
   say(server.url() + '\n');
   std::fflush(stdout);
   while (!signals.stop_requested_within(-1)) continue;

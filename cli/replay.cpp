@@ -16,7 +16,7 @@
 #include "cli/verbs.hpp"
 #include "config/text/installation.hpp"
 #include "evaluator/render/text_table.hpp"
-#include "evaluator/story/decided_again.hpp"
+#include "evaluator/timeline/decided_again.hpp"
 #include "experiment/replay/replay_match.hpp"
 #include "kicking/geometry/time.hpp"
 #include "log/write/additions.hpp"

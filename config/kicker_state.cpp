@@ -92,7 +92,7 @@ std::optional<kicking::KickerEstimate> load_kicker_state(const std::filesystem::
     state.estimate.mean[static_cast<Eigen::Index>(i)] = state.means[i];
     state.estimate.se[static_cast<Eigen::Index>(i)] = state.standard_errors[i];
   }
-  if (!kicking::sound(state.estimate)) refuse("has numbers that no kicker has");
+  if (!kicking::valid(state.estimate)) refuse("has numbers that no kicker has");
   return state.estimate;
 }
 

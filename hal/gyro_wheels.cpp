@@ -9,7 +9,7 @@ std::optional<WheelSample> GyroWheels::read(std::chrono::nanoseconds timeout) {
   if (!sample) return sample;
   const auto turn = gyro_->newest();
   const bool same = turn && std::abs(turn->t_ns - sample->t_ns) <= kSameInstant_ns;
-  sample->gyro_radps = same ? kicking::Maybe{turn->gyro_radps} : std::nullopt;
+  sample->gyro_radps = same ? kicking::OptionalDouble{turn->gyro_radps} : std::nullopt;
   sample->gyro_emulated = same && emulated_;
   return sample;
 }

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::hal {
 
@@ -22,9 +22,9 @@ struct KickerSample {
   bool armed = false;     ///< the arm switch
   KickerFault fault = KickerFault::kNone;
   bool charge_modelled = false;  ///< the device measures no charge: it was computed from the time since the last shot
-  kicking::Maybe voltage_v{};    ///< of the capacitor; none, or not finite: not measured
-  bool emulated = false;         ///< the board is a program
-  std::uint8_t lever_kind = 0;   ///< kind of kick that the lever stands for; kicking::kLeverMoves: for none
+  kicking::OptionalDouble voltage_v{};  ///< of the capacitor; none, or not finite: not measured
+  bool emulated = false;                ///< the board is a program
+  std::uint8_t lever_kind = 0;          ///< kind of kick that the lever stands for; kicking::kLeverMoves: for none
 };
 
 /// What a device can do beyond firing and saying whether it may. Aligned so that an atomic one needs no lock.

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "kicking/geometry/frames.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::hal {
 
@@ -16,7 +16,7 @@ struct WheelSample {
   std::int64_t t_ns = 0;                ///< of the sample on the steady clock, as in hal/kicker.hpp
   int wheel_count = 0;                  ///< entries of wheel_radps that count, 3 or 4
   std::array<double, 4> wheel_radps{};  ///< counter-clockwise about the robot's centre is positive
-  kicking::Maybe gyro_radps;            ///< counter-clockwise
+  kicking::OptionalDouble gyro_radps;   ///< counter-clockwise
   bool emulated = false;                ///< the base is a program
   bool gyro_emulated = false;           ///< gyro_radps is a program's
 };

@@ -46,7 +46,7 @@ void BusSnapshot::add(const std::string& topic, const std::string& profile, doub
   added.about.period_s = period_s;
 }
 
-void BusSnapshot::hear(const std::string& topic, std::uint8_t robot_id, const Heard& heard) {
+void BusSnapshot::receive(const std::string& topic, std::uint8_t robot_id, const ReceivedSample& received_sample) {
   if (only_ && robot_id != *only_) return;
   const auto found = std::ranges::find_if(topics_, [&](const Topic& known) { return known.about.topic == topic; });
   if (found == topics_.end()) return;
@@ -55,7 +55,7 @@ void BusSnapshot::hear(const std::string& topic, std::uint8_t robot_id, const He
     if (found->robots.size() >= kMostRobots) return;  // anybody may say any number
     stream = found->robots.emplace(robot_id, StreamStatistics{found->about.period_s}).first;
   }
-  stream->second.see(robot_id, heard);
+  stream->second.see(robot_id, received_sample);
 }
 
 // A writer that names no robot may write for any.

@@ -64,7 +64,7 @@ class BusSnapshot {
   /// A topic of the list, in its order.
   void add(const std::string& topic, const std::string& profile, double period_s);
 
-  void hear(const std::string& topic, std::uint8_t robot_id, const Heard& heard);
+  void receive(const std::string& topic, std::uint8_t robot_id, const ReceivedSample& received_sample);
 
   /// `reading_of`: what the kernel says of a process of this machine now.
   BusPicture look(const bus::Census& census, std::int64_t now_ns,

@@ -31,29 +31,30 @@ std::int64_t StreamStatistics::deadlines_in(std::int64_t ns) const {
   return static_cast<std::int64_t>(static_cast<double>(ns) / (kPeriodsPerDeadline * period_s_ * kNsPerS));
 }
 
-void StreamStatistics::count(std::uint8_t robot_id, const Heard& heard) {
-  if (!heard.seq) return;
-  if (numbers_.size() >= kMostWriters && !numbers_.contains(heard.writer)) numbers_.erase(numbers_.begin());
-  const auto finding =
-      numbers_[heard.writer].see(robot_id, *heard.seq, heard.writer, static_cast<double>(heard.received_ns) / kNsPerS);
+void StreamStatistics::count(std::uint8_t robot_id, const ReceivedSample& received_sample) {
+  if (!received_sample.seq) return;
+  if (numbers_.size() >= kMostWriters && !numbers_.contains(received_sample.writer)) numbers_.erase(numbers_.begin());
+  const auto finding = numbers_[received_sample.writer].see(robot_id, *received_sample.seq, received_sample.writer,
+                                                            static_cast<double>(received_sample.received_ns) / kNsPerS);
   if (!finding.believed) return;
   counts_.lost += finding.gap - (finding.filled ? 1 : 0);
   if (finding.out_of_order) ++counts_.out_of_order;
 }
 
-void StreamStatistics::see(std::uint8_t robot_id, const Heard& heard) {
-  count(robot_id, heard);
+void StreamStatistics::see(std::uint8_t robot_id, const ReceivedSample& received_sample) {
+  count(robot_id, received_sample);
   if (counts_.received++ == 0) {
-    first_ns_ = heard.received_ns;
+    first_ns_ = received_sample.received_ns;
   } else {
-    counts_.missed_deadlines += deadlines_in(heard.received_ns - window_.back().received_ns);
+    counts_.missed_deadlines += deadlines_in(received_sample.received_ns - window_.back().received_ns);
   }
-  Sample sample{heard.received_ns, static_cast<double>(heard.received_real_ns - heard.source_ns) / 1e3, std::nullopt};
-  const std::int64_t age_ns = heard.received_ns - heard.t_ns;
+  Sample sample{received_sample.received_ns,
+                static_cast<double>(received_sample.received_real_ns - received_sample.source_ns) / 1e3, std::nullopt};
+  const std::int64_t age_ns = received_sample.received_ns - received_sample.t_ns;
   if (age_ns >= 0 && age_ns < kOldest_ns) sample.age_ms = static_cast<double>(age_ns) / 1e6;
   window_.push_back(sample);
   // The last one stays: it is what silence is measured from.
-  const auto oldest_ns = heard.received_ns - static_cast<std::int64_t>(kWindow_s * kNsPerS);
+  const auto oldest_ns = received_sample.received_ns - static_cast<std::int64_t>(kWindow_s * kNsPerS);
   while (window_.size() > kMostSamples || window_.front().received_ns < oldest_ns) window_.pop_front();
 }
 

@@ -11,7 +11,7 @@
 namespace trivela::monitor {
 
 /// A sample of a topic as it was received.
-struct Heard {
+struct ReceivedSample {
   std::uint64_t writer = 0;           ///< tells the writers of the topic apart
   std::optional<std::uint64_t> seq;   ///< its number, where the message has one
   std::int64_t t_ns = 0;              ///< what the message is about: in real time of the machine's steady clock
@@ -42,7 +42,7 @@ class StreamStatistics {
   /// `period_s`: the longest time between two samples while all is well; 0: none.
   explicit StreamStatistics(double period_s) : period_s_(period_s) {}
 
-  void see(std::uint8_t robot_id, const Heard& heard);
+  void see(std::uint8_t robot_id, const ReceivedSample& received_sample);
   StreamFigures figures(std::int64_t now_ns) const;
 
  private:
@@ -52,7 +52,7 @@ class StreamStatistics {
     std::optional<double> age_ms;
   };
   std::int64_t deadlines_in(std::int64_t ns) const;
-  void count(std::uint8_t robot_id, const Heard& heard);
+  void count(std::uint8_t robot_id, const ReceivedSample& received_sample);
 
   double period_s_;
   std::int64_t first_ns_ = 0;

@@ -27,17 +27,18 @@ class PassiveSubscriber {
 template <bus::Message T>
 class StreamSubscriber : public PassiveSubscriber {
  public:
-  using Hear = std::function<void(const T&, const bus::SampleInfo&)>;  ///< on Cyclone's threads, one call at a time
+  using OnSample = std::function<void(const T&, const bus::SampleInfo&)>;  ///< on Cyclone's threads, one call at a time
 
   /// `with_the_last`: what a state topic keeps for those who join late is heard, too. Throws bus::Error.
-  StreamSubscriber(const bus::Participant& participant, Hear hear, bool with_the_last = false)
-      : hear_(std::move(hear)) {
+  StreamSubscriber(const bus::Participant& participant, OnSample receive, bool with_the_last = false)
+      : on_sample_(std::move(receive)) {
     bus::ReaderOptions options;
     options.keep_all = true;
     options.observer = true;
     options.with_the_last = with_the_last;
     auto reader = std::make_unique<bus::Reader<T>>(
-        participant, options, [](void* ear) noexcept { static_cast<StreamSubscriber*>(ear)->take(); }, this);
+        participant, options, [](void* subscriber) noexcept { static_cast<StreamSubscriber*>(subscriber)->take(); },
+        this);
     {
       const std::lock_guard lock{mutex_};
       reader_ = std::move(reader);
@@ -60,11 +61,11 @@ class StreamSubscriber : public PassiveSubscriber {
  private:
   void take() noexcept try {
     const std::lock_guard lock{mutex_};
-    if (reader_) reader_->take(hear_);
+    if (reader_) reader_->take(on_sample_);
   } catch (...) {  // the bus's thread goes on: what could not be taken is not counted
   }
 
-  Hear hear_;
+  OnSample on_sample_;
   std::mutex mutex_;
   std::unique_ptr<bus::Reader<T>> reader_;
 };

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 #include "log/schema/row.hpp"
 #include "python/arrays.hpp"
 
@@ -22,7 +22,7 @@ class Column {
   void add(std::nullopt_t);
   void add(bool truth);
   void add(double number);
-  void add(kicking::Maybe number) { number ? add(*number) : add(std::nullopt); }
+  void add(kicking::OptionalDouble number) { number ? add(*number) : add(std::nullopt); }
   void add(std::string_view text);
   void add(const char* text) { add(std::string_view(text)); }
   void add(const std::string& text) { add(std::string_view(text)); }

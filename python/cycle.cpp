@@ -20,12 +20,12 @@ Reason reason_named(const std::string& text) {
   return static_cast<Reason>(found - kReasonNames.begin());
 }
 
-std::optional<double> of(Maybe number) { return number; }
+std::optional<double> of(OptionalDouble number) { return number; }
 
 using OutputClass = py::class_<PolicyOutput>;
 using CycleClass = py::class_<Cycle, std::shared_ptr<Cycle>>;
 
-void add_number(OutputClass& output, const char* key, Maybe PolicyOutput::*field, const char* what) {
+void add_number(OutputClass& output, const char* key, OptionalDouble PolicyOutput::*field, const char* what) {
   output.def_property(
       key, [field](const PolicyOutput& out) { return of(out.*field); },
       [field](PolicyOutput& out, std::optional<double> value) { out.*field = value; }, what);

@@ -44,9 +44,9 @@ struct Solutions {
         range(kicks, -1) {}
 
   void set(std::size_t i, const kicking::KickSpeeds& speeds) {
-    v0_mps[i] = speeds.v0_mps.wire();
-    exact_mps[i] = speeds.vk_exact_mps.wire();
-    paper_mps[i] = speeds.vk_paper_mps.wire();
+    v0_mps[i] = speeds.v0_mps.to_message();
+    exact_mps[i] = speeds.vk_exact_mps.to_message();
+    paper_mps[i] = speeds.vk_paper_mps.to_message();
     feasible[i] = speeds.v0_mps.has_value();
     descending[i] = speeds.descending;
   }
@@ -94,7 +94,7 @@ py::dict solve(const Numbers& distance_m, const Numbers& height_m, const Numbers
       if (!drag.empty()) {
         const double per_m = kicking::drag_per_m(flight.ball(), {flight.air_density_kgpm3, drag[i]});
         solutions.drag_mps[i] =
-            kicking::crossing_speed_with_drag(wanted.point, angle[i], per_m, flight.gravity_mps2).wire();
+            kicking::crossing_speed_with_drag(wanted.point, angle[i], per_m, flight.gravity_mps2).to_message();
       }
       if (robot && speeds.vk_exact_mps) solutions.set_power(i, robot->model.table.power_for(*speeds.vk_exact_mps));
     }
@@ -128,7 +128,7 @@ py::dict align(const Numbers& x_m, const Numbers& y_m, const Numbers& heading_ra
       const kicking::Alignment result =
           kicking::align({x[i], y[i], heading[i]}, alpha[i], beta[i], omega[i], {tx[i], ty[i]}, rule);
       distance[i] = result.centre_distance_m;
-      offset[i] = result.offset_right_m.wire();
+      offset[i] = result.offset_right_m.to_message();
       left[i] = result.left_m;
       right[i] = result.right_m;
       aligned[i] = result.aligned;

@@ -99,11 +99,11 @@ void add_kick(Columns& row, const std::optional<experiment::PlayedKick>& kick) {
   row.add("vx_mps", number(&experiment::PlayedKick::vx_mps));
   row.add("vy_mps", number(&experiment::PlayedKick::vy_mps));
   row.add("omega_radps", number(&experiment::PlayedKick::omega_radps));
-  row.add("opponent_distance_m", kick ? kick->opponent_distance_m.wire() : kNone);
+  row.add("opponent_distance_m", kick ? kick->opponent_distance_m.to_message() : kNone);
   row.add("power", number(&experiment::PlayedKick::power));
   row.add("kick_kind", kick ? int{kick->kind} : -1);
   row.add("v_kick_mps", number(&experiment::PlayedKick::v_kick_mps));
-  row.add("p_on_target", kick ? kick->p_on_target.wire() : kNone);
+  row.add("p_on_target", kick ? kick->p_on_target.to_message() : kNone);
   row.add("predicted_x_cross_m", crossing(&kicking::PredictedCrossing::x_m));
   row.add("predicted_z_cross_m", crossing(&kicking::PredictedCrossing::z_m));
   row.add("predicted_t_flight_s", crossing(&kicking::PredictedCrossing::t_flight_s));

@@ -296,7 +296,7 @@ TrueState Match::true_state() const {
                   .opponent_distance_m = s.challenger().distance_m(),
                   .opponent_closing_mps = s.challenger().closing_mps(),
                   .keeper_x_m = s.scenario.keeper.enabled
-                                    ? kicking::Maybe(keeper_place(s.scenario, s.world.ball_m()).x_m)
+                                    ? kicking::OptionalDouble(keeper_place(s.scenario, s.world.ball_m()).x_m)
                                     : std::nullopt,
                   .dispute_t_ns = s.dispute_t_ns};
   for (const OpponentBody& body : s.world.opponents().all())

@@ -7,7 +7,7 @@
 
 #include "kicking/geometry/frames.hpp"
 #include "kicking/lob/scan.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::sim {
 
@@ -63,7 +63,7 @@ struct RefereeState {
   std::uint32_t possession_id = 0;  ///< counts from 1 in each half; the next one begins with its stop
   std::uint32_t goals = 0;          ///< ours; the opponents only defend
   std::uint32_t commands = 0;       ///< how often play was stopped or started
-  kicking::Maybe half_s;            ///< since the first start of play in the half
+  kicking::OptionalDouble half_s;   ///< since the first start of play in the half
   bool set_piece = false;           ///< the next start of play is a set piece of ours
 };
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "kicking/geometry/goal.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 #include "kicking/outcome/outcome.hpp"
 #include "kicking/random/draws.hpp"
 #include "sim/guard.hpp"
@@ -22,7 +22,7 @@ struct ShotResult {
   std::int64_t t_ns = 0;
   kicking::Outcome outcome{};
   std::optional<Crossing> crossing;
-  kicking::Maybe margin_m;
+  kicking::OptionalDouble margin_m;
   bool saved = false;    ///< on target, but the keeper had it
   bool bounced = false;  ///< touched the floor before the first of these
 };

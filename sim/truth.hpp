@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kicking/geometry/frames.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 #include "kicking/outcome/blocking.hpp"
 #include "kicking/outcome/outcome.hpp"
 
@@ -34,7 +34,7 @@ struct KickTruth {
   Eigen::Vector3d release_velocity_mps{0.0, 0.0, 0.0};  ///< over ground
   /// Distance of the crossing from the nearest edge that would change the outcome; for a short ball, of its nearest
   /// point from the goal line; none for a blocked one.
-  kicking::Maybe margin_m;
+  kicking::OptionalDouble margin_m;
 };
 
 /// kStopped: the referee whistled.
@@ -63,8 +63,8 @@ struct TrueState {
   double opponent_closing_mps = 0.0;  ///< its rate
   std::array<kicking::BodyPlace, kicking::kMostBodies> opponents{};
   std::size_t opponent_count = 0;
-  kicking::Maybe keeper_x_m;      ///< the opponents' keeper along its line; none: there is none
-  std::int64_t dispute_t_ns = 0;  ///< when an opponent is at the ball, if it stays
+  kicking::OptionalDouble keeper_x_m;  ///< the opponents' keeper along its line; none: there is none
+  std::int64_t dispute_t_ns = 0;       ///< when an opponent is at the ball, if it stays
 };
 
 /// What was settled during one step.

@@ -18,7 +18,7 @@ namespace {
 
 constexpr unsigned kFirstPort = 7400, kLastPort = 7400 + 250 * 101 - 1;  // RTPS 9.6.2.1
 
-bool hears_all(int socket) {
+bool receives_all(int socket) {
   int type = 0;
   socklen_t size = sizeof type;
   if (getsockopt(socket, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_DGRAM) return false;
@@ -48,12 +48,12 @@ std::set<int> open_to_all() {
     const std::string name = entry.path().filename().string();
     int descriptor = -1;
     std::from_chars(name.data(), name.data() + name.size(), descriptor);
-    if (descriptor >= 0 && hears_all(descriptor)) found.insert(descriptor);
+    if (descriptor >= 0 && receives_all(descriptor)) found.insert(descriptor);
   }
   return found;
 }
 
-void hear_loopback_alone(int socket) {
+void receive_loopback_only(int socket) {
   constexpr std::string_view kLoopback = "lo";
   if (setsockopt(socket, SOL_SOCKET, SO_BINDTODEVICE, kLoopback.data(), kLoopback.size()) != 0)
     throw Error("SO_BINDTODEVICE", "lo", std::strerror(errno));

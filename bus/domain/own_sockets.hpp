@@ -13,6 +13,6 @@ std::set<int> open_to_all();
 
 /// From now on the socket hears the loopback interface alone, whatever address it is bound to (SO_BINDTODEVICE, which
 /// takes no right since Linux 5.7). Throws Error where the kernel refuses.
-void hear_loopback_alone(int socket);
+void receive_loopback_only(int socket);
 
 }  // namespace trivela::bus

@@ -32,7 +32,7 @@ Entity open_domain(const DomainConfig& config, const std::string& about) {
   Entity entity{checked(dds_create_domain(config.domain_id, config.xml.c_str()), "dds_create_domain", about)};
   if (!alone) return entity;
   for (const int socket : open_to_all())
-    if (!before.contains(socket)) hear_loopback_alone(socket);
+    if (!before.contains(socket)) receive_loopback_only(socket);
   return entity;
 }
 

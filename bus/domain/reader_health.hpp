@@ -36,13 +36,13 @@ class ReaderHealth {
   std::uint64_t renewals() const { return renewals_; }
 
   /// Making readers again does not help; the first topic's name and reason are kept.
-  void give_up(const std::string& topic, const std::string& story) {
+  void give_up(const std::string& topic, const std::string& timeline) {
     if (std::chrono::steady_clock::now() < stays_until_) return;
     const std::lock_guard lock(mutex_);
-    if (!deaf_) deaf_.emplace("hear", topic, story);
+    if (!deaf_) deaf_.emplace("hear", topic, timeline);
   }
 
-  /// The story of who gave up first.
+  /// The timeline of who gave up first.
   std::optional<BusUnresponsive> deaf() const {
     const std::lock_guard lock(mutex_);
     return deaf_;

@@ -10,7 +10,7 @@
 #include "cli/calibrate/robot_drives.hpp"
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/run.hpp"
-#include "cli/launch/person.hpp"
+#include "cli/launch/operator.hpp"
 #include "cli/options/match_mode.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
@@ -34,8 +34,8 @@ class AskedDrives : public calibration::DriveSource {
  public:
   /// All outlive it. `played_by`: plays what was confirmed.
   AskedDrives(calibration::DriveSource& played_by, const config::Settings& settings,
-              calibration::CalibrationRecord& kept, Person& person)
-      : played_by_(played_by), settings_(settings), kept_(kept), person_(person) {}
+              calibration::CalibrationRecord& kept, Operator& user)
+      : played_by_(played_by), settings_(settings), kept_(kept), user_(user) {}
 
   /// Throws LeftForToday, and what the source throws; then the records so far are set aside when it is played again.
   calibration::DriveRecord play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) override;
@@ -44,11 +44,11 @@ class AskedDrives : public calibration::DriveSource {
   calibration::DriveSource& played_by_;
   const config::Settings& settings_;
   calibration::CalibrationRecord& kept_;
-  Person& person_;
+  Operator& user_;
 };
 
-std::string answer_to(Person& person, const std::string& question, const calibration::CalibrationRecord& kept) {
-  const auto said = person.ask(question);
+std::string answer_to(Operator& user, const std::string& question, const calibration::CalibrationRecord& kept) {
+  const auto said = user.ask(question);
   std::string answer = said ? config::trimmed(*said) : "q";
   if (answer == "q" || answer == "Q" || answer == "quit")
     throw LeftForToday{
@@ -57,9 +57,9 @@ std::string answer_to(Person& person, const std::string& question, const calibra
 }
 
 /// Whoever types anything else did not mean to start a robot.
-void wait_for_enter(Person& person, const calibration::CalibrationRecord& kept) {
+void wait_for_enter(Operator& user, const calibration::CalibrationRecord& kept) {
   for (;;) {
-    const std::string answer = answer_to(person, "Enter: begin; q: leave for today: ", kept);
+    const std::string answer = answer_to(user, "Enter: begin; q: leave for today: ", kept);
     if (answer.empty()) return;
     say(fmt::format("'{}' begins nothing.\n", answer));
   }
@@ -67,13 +67,13 @@ void wait_for_enter(Person& person, const calibration::CalibrationRecord& kept) 
 
 /// Asks for the length, proposing what is in the record, else `proposed`; keeps the answer. Throws LeftForToday.
 double ask_for(const calibration::FieldMeasure& measure, double proposed, calibration::CalibrationRecord& kept,
-               Person& person) {
+               Operator& user) {
   if (const auto known = kept.measured(measure.name)) {
     say(fmt::format("{}: {:.3f} (measured before)\n", measure.question, *known));
     return *known;
   }
   for (;;) {
-    const std::string answer = answer_to(person, fmt::format("{} [{:.3f}]: ", measure.question, proposed), kept);
+    const std::string answer = answer_to(user, fmt::format("{} [{:.3f}]: ", measure.question, proposed), kept);
     const auto value = answer.empty() ? std::optional{proposed} : config::parse_number(answer);
     if (value && *value >= measure.least_m && *value <= measure.most_m) {
       kept.measure(measure.name, *value);
@@ -93,7 +93,7 @@ calibration::DriveRecord AskedDrives::play(const calibration::DrivePlan& plan, c
   if (calibration::set_aside(kept_.folder(), plan.name) > 0)
     say(fmt::format("{}: what was recorded of an earlier start is kept as {}.partial-*\n", plan.name, plan.name));
   say(fmt::format("\n{}\n{}", plan.name, calibration::instructions(plan, settings_)));
-  wait_for_enter(person_, kept_);
+  wait_for_enter(user_, kept_);
   calibration::DriveRecord record = played_by_.play(plan, robot);
   kept_.finish(plan.name);
   return record;
@@ -159,24 +159,22 @@ int play_in(Field field, const RunFlags& flags, const calibration::RobotUpdate& 
   fs::path part = file;
   part += ".part";  // until every figure is in it
   calibration::CalibrationRecord kept{folder, arguments_of(flags, field.world.has_value())};
-  Person person{signals};
+  Operator user{signals};
   config::Settings& settings = field.settings;
   const double standing_m = ask_for(calibration::standing_distance(),
-                                    field.world ? field.world->possession.goal_distance_max_m : 6.0, kept, person);
-  settings.scan_recorder.mount_x_m =
-      ask_for(calibration::laser_ahead(), settings.scan_recorder.mount_x_m, kept, person);
-  settings.scan_recorder.mount_z_m =
-      ask_for(calibration::laser_height(), settings.scan_recorder.mount_z_m, kept, person);
+                                    field.world ? field.world->possession.goal_distance_max_m : 6.0, kept, user);
+  settings.scan_recorder.mount_x_m = ask_for(calibration::laser_ahead(), settings.scan_recorder.mount_x_m, kept, user);
+  settings.scan_recorder.mount_z_m = ask_for(calibration::laser_height(), settings.scan_recorder.mount_z_m, kept, user);
   RunReport report{false};
   const auto played = drives_in(field.world, settings, folder, part, signals);
-  AskedDrives asked{*played, settings, kept, person};
+  AskedDrives asked{*played, settings, kept, user};
   calibration::CalibrationRun run{asked, standing_m, settings, flags.effort, flags.seed * 100, start};
   run.calibration([&](const calibration::DriveSummary& summary) {
     report.add(summary);
     std::fflush(stdout);
   });
   const auto checked_by = drives_in(field.check_world, settings, folder, part, signals);
-  AskedDrives check{*checked_by, settings, kept, person};
+  AskedDrives check{*checked_by, settings, kept, user};
   const calibration::DriveRecord checked = check.play(check_plan(flags, false), run.robot());
   run.robot().write(file);
   std::error_code none;
@@ -192,7 +190,7 @@ int calibrate_in_field(const RunFlags& flags) {
   refuse_flags_of_simulation(flags);
   Field field = field_of(flags);
   const calibration::RobotUpdate start = robot_of(flags, field.world.has_value());
-  if (!Person::is_there())
+  if (!Operator::is_there())
     throw std::runtime_error{"--in field asks a person for each step: standard input is no terminal"};
   const fs::path file = place_of(flags);
   SignalInbox signals;

@@ -112,19 +112,19 @@ class OwnReferee {
   }
 
  private:
-  void say_word(hal::refbox::CommandKind kind) { box_.act(hal::refbox::Said{kind, {}, {}}); }
+  void say_word(hal::refbox::CommandKind kind) { box_.act(hal::refbox::BoxCommand{kind, {}, {}}); }
   hal::refbox::EmulatedBox box_;
 };
 
 /// How far the drive has come, by what its nodes say.
 class DriveProgress {
  public:
-  DriveProgress(const bus::Participant& participant, std::uint8_t robot_id, std::uint32_t kicks, double aftermath_s)
+  DriveProgress(const bus::Participant& participant, std::uint8_t robot_id, std::uint32_t kicks, double quiet_s)
       : receipts_(participant),
         decisions_(participant),
         robot_id_(robot_id),
         kicks_(kicks),
-        aftermath_(kicking::nanoseconds(aftermath_s)) {}
+        quiet_(kicking::nanoseconds(quiet_s)) {}
 
   /// True once all is kicked and the last ball has come down.
   bool over() {
@@ -138,7 +138,7 @@ class DriveProgress {
     decisions_.take([&](const msg::KickDecision& decision) {
       if (decision.robot_id == robot_id_ && decision.reason == msg::REASON_DRIVE_FINISHED) finished_ = true;
     });
-    return (finished_ || kicked_ >= kicks_) && DriveClock::now() - last_ > aftermath_;
+    return (finished_ || kicked_ >= kicks_) && DriveClock::now() - last_ > quiet_;
   }
   std::uint32_t kicked() const { return kicked_; }
 
@@ -147,7 +147,7 @@ class DriveProgress {
   bus::Reader<msg::KickDecision> decisions_;
   std::uint8_t robot_id_;
   std::uint32_t kicks_;
-  std::chrono::nanoseconds aftermath_;
+  std::chrono::nanoseconds quiet_;
   std::uint32_t kicked_ = 0;
   bool finished_ = false;
   DriveClock::time_point last_{};
@@ -208,7 +208,7 @@ calibration::DriveRecord RobotDrives::play(const calibration::DrivePlan& plan, c
     if (!started) started = referee->start_when_connected();
     pollfd inbox{signals_.file_descriptor(), POLLIN, 0};
     ::poll(&inbox, 1, static_cast<int>(kLookAtNodes.count()));
-    trouble = signals_.stop_requested() ? "interrupted" : casualty(nodes.running);
+    trouble = signals_.stop_requested() ? "interrupted" : dead_node(nodes.running);
   }
   referee.reset();
   stop_all(nodes.running, 1);

@@ -57,7 +57,7 @@ std::string in_words(const box::BoxAct& act) {
       if (known == *fault) return fmt::format("fault {}", name);
     }
   }
-  const box::Said& said = std::get<box::Said>(act);
+  const box::BoxCommand& said = std::get<box::BoxCommand>(act);
   std::string text(box::name(said.kind));
   if (said.team) text += *said.team == 0 ? " left" : " right";
   if (said.robot_id) text += fmt::format(" {}", *said.robot_id);

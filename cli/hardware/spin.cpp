@@ -103,7 +103,7 @@ int spin_wheel(const Spin& spin, hal::Wheels& wheels, const config::WheelBase& b
   const AtRestAfterwards at_rest{wheels};
   const auto began = SpinClock::now();
   const auto lasts = std::chrono::duration<double>(spin.seconds);
-  auto heard = began;
+  auto received = began;
   while (SpinClock::now() - began < lasts) {
     turn(spin, wheels, kinematics);
     if (signals.stop_requested_within(static_cast<int>(kCommandPeriod.count()))) {
@@ -113,10 +113,11 @@ int spin_wheel(const Spin& spin, hal::Wheels& wheels, const config::WheelBase& b
     for (auto sample = wheels.read(std::chrono::nanoseconds{0}); sample;
          sample = wheels.read(std::chrono::nanoseconds{0})) {
       newest = sample;
-      heard = SpinClock::now();
-      if (heard - began > lasts / 2) mean.add(*sample);
+      received = SpinClock::now();
+      if (received - began > lasts / 2) mean.add(*sample);
     }
-    if (SpinClock::now() - heard > kSilence || !wheels.connected(std::chrono::nanoseconds{0})) throw lost(spin, wheels);
+    if (SpinClock::now() - received > kSilence || !wheels.connected(std::chrono::nanoseconds{0}))
+      throw lost(spin, wheels);
   }
   if (!newest) throw std::runtime_error{"the wheels say nothing"};
   if (mean.empty()) throw lost(spin, wheels);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/hardware/device_probes.hpp"
-#include "cli/launch/person.hpp"
+#include "cli/launch/operator.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "config/robot.hpp"
 #include "config/settings.hpp"
@@ -59,7 +59,7 @@ std::string refused_at_once(const hal::KickerSample& sample, const config::Kicke
 /// robot::OrderGate as every order of a match; what the referee would have to permit, the person does. The kicker is
 /// safe afterwards, by whichever way this is left. Returns the exit code: kFailed where it was not confirmed, refused
 /// or not carried out. Throws std::runtime_error where the kicker does not answer.
-int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const config::Robot& robot, Person& person,
+int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const config::Robot& robot, Operator& user,
                    SignalInbox& signals);
 
 }  // namespace trivela::cli

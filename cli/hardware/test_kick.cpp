@@ -20,7 +20,7 @@ using KickClock = std::chrono::steady_clock;
 constexpr std::int64_t kTestKick = 1;
 constexpr std::chrono::seconds kKickerTimeout{3};
 constexpr std::chrono::milliseconds kSampleWait{50};
-constexpr std::chrono::milliseconds kAftermath{500};  // until the board has said what became of the shot
+constexpr std::chrono::milliseconds kOutcomeTimeout{500};  // until the board has said what became of the shot
 
 std::int64_t kick_now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(KickClock::now().time_since_epoch()).count();
@@ -54,7 +54,7 @@ bool listen(hal::Kicker& kicker, robot::OrderGate& gate, std::optional<hal::Kick
   return true;
 }
 
-bool sound(const hal::KickerSample& sample) { return sample.fault == hal::KickerFault::kNone; }
+bool healthy(const hal::KickerSample& sample) { return sample.fault == hal::KickerFault::kNone; }
 
 int not_fired(const std::string& why) {
   warn(why + ": nothing was fired");
@@ -83,7 +83,7 @@ int carry_out(hal::Kicker& kicker, robot::OrderGate& gate, const msg::KickOrder&
                .t_ns = order.t_ns,
                .until_ns = order.valid_until_t_ns,
                .judged_ns = order.t_ns});
-  listen(kicker, gate, newest, KickClock::now() + kAftermath, signals, [] { return false; });
+  listen(kicker, gate, newest, KickClock::now() + kOutcomeTimeout, signals, [] { return false; });
   const std::string status = kicker.status();
   if (status != before && !status.empty()) say(fmt::format("kicker says: {}\n", status));
   if (const auto result = kicker.take_result(); result && result->what != hal::ShotResult::What::kFired) return kFailed;
@@ -95,20 +95,20 @@ int carry_out(hal::Kicker& kicker, robot::OrderGate& gate, const msg::KickOrder&
 
 std::string refused_at_once(const hal::KickerSample& sample, const config::KickerDevice& device,
                             const std::string& status) {
-  if (!sound(sample))
+  if (!healthy(sample))
     return fmt::format("refused, fault; {}{}{}", kicker_text(sample), status.empty() ? "" : "; ", status);
   return sample.armed ? "" : fmt::format("refused, unarmed: {}; {}", config::unarmed_by(device), kicker_text(sample));
 }
 
-int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const config::Robot& robot, Person& person,
+int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const config::Robot& robot, Operator& user,
                    SignalInbox& signals) {
   const SafeAfterwards safe{kicker};
   const kicking::Range powers{robot.model.table.front().power, robot.model.table.back().power};
   robot::OrderGate gate{settings.kicker_driver, {powers}, settings.run.cycle_s};
-  gate.referee(robot::RefereeSays::kPlay);
+  gate.referee(robot::RefereePermission::kPlay);
   std::optional<hal::KickerSample> newest;
   if (!listen(kicker, gate, newest, KickClock::now() + kKickerTimeout, signals,
-              [&] { return newest && sound(*newest) && newest->armed; }))
+              [&] { return newest && healthy(*newest) && newest->armed; }))
     return not_fired("stopped");
   if (!newest) throw std::runtime_error{fmt::format("the kicker does not answer: {}", kicker.status())};
   const std::string refused = refused_at_once(*newest, settings.hal.kicker, kicker.status());
@@ -118,7 +118,7 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
                   "One kick with set-point {:.2f}, the lowest of {}. No referee is asked: you are the referee.\n"
                   "Lay the ball into the handler. Is nobody in front of the robot, and nobody's hand near it?\n",
                   kicker_text(*newest), powers.min, robot.name));
-  if (!person.confirms("kick")) return not_fired("not confirmed");
+  if (!user.confirms("kick")) return not_fired("not confirmed");
   const std::chrono::duration<double> timeout =
       kKickerTimeout + std::chrono::duration<double>{config::modelled_charge_s(settings.hal.kicker)};
   say(fmt::format("It charges; the shot comes by itself within {:.0f} s. Ctrl-C calls it off.\n", timeout.count()));
@@ -126,7 +126,7 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
   kicker.charge(hal::ChargeCommand::kCharge);
   newest.reset();  // what waited while the person thought is too old
   if (!listen(kicker, gate, newest, KickClock::now() + std::chrono::duration_cast<KickClock::duration>(timeout),
-              signals, [&] { return newest && sound(*newest) && (!newest->armed || gate.ready(kick_now_ns())); }))
+              signals, [&] { return newest && healthy(*newest) && (!newest->armed || gate.ready(kick_now_ns())); }))
     return not_fired("stopped");
   const msg::KickOrder order =
       order_of(powers.min, settings.kick_decision.order_validity_s, static_cast<std::uint8_t>(settings.run.robot_id));

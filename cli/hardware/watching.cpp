@@ -25,7 +25,7 @@ constexpr std::chrono::seconds kBetweenLines{1};        // in a pipe
 bool silent(DeviceProbe& fixture) { return fixture.wanted() && !fixture.found(); }
 
 /// Who has answered, and who did not at a later look.
-struct Heard {
+struct Received {
   std::set<const DeviceProbe*> once, lapsed;
 
   void note(DeviceProbe& fixture) {
@@ -37,11 +37,11 @@ struct Heard {
 };
 
 /// Looks at every device until `end`. False: somebody asked to stop.
-bool look_until(DeviceProbes& probes, WatchClock::time_point end, SignalInbox& signals, Heard& heard) {
+bool look_until(DeviceProbes& probes, WatchClock::time_point end, SignalInbox& signals, Received& received) {
   do {
     for (const auto& fixture : probes) {
       fixture->look();
-      heard.note(*fixture);
+      received.note(*fixture);
     }
     if (signals.stop_requested_within(static_cast<int>(kPollInterval.count()))) return false;
   } while (WatchClock::now() < end);
@@ -107,10 +107,10 @@ std::string listing(const DeviceProbes& probes) {
 int watch(DeviceProbes& probes, std::optional<double> seconds, SignalInbox& signals) {
   const auto timeout_at = WatchClock::now() + kListingTimeout;
   bool goes_on = true;
-  Heard heard;
+  Received received;
   while (goes_on && !all_found(probes) && WatchClock::now() < timeout_at)
-    goes_on = look_until(probes, WatchClock::now(), signals, heard);
-  if (goes_on) goes_on = look_until(probes, WatchClock::now() + kRedraw, signals, heard);
+    goes_on = look_until(probes, WatchClock::now(), signals, received);
+  if (goes_on) goes_on = look_until(probes, WatchClock::now() + kRedraw, signals, received);
   say(listing(probes));
   std::fflush(stdout);
   const bool terminal = can_be_drawn_over(STDOUT_FILENO);
@@ -120,15 +120,15 @@ int watch(DeviceProbes& probes, std::optional<double> seconds, SignalInbox& sign
   const auto began = WatchClock::now();
   for (int i = 1; goes_on; ++i) {
     if (!(terminal && !seconds) && std::chrono::duration<double>(step).count() * i > lasts_s) break;
-    goes_on = look_until(probes, began + i * step, signals, heard);
+    goes_on = look_until(probes, began + i * step, signals, received);
     if (!goes_on) break;
     terminal ? board.draw(probes) : say_line(probes);
   }
   for (const auto& fixture : probes) {
-    if (heard.lapsed.contains(fixture.get()) && !silent(*fixture))
+    if (received.lapsed.contains(fixture.get()) && !silent(*fixture))
       warn(fmt::format("{} did not answer all the time: is its cable loose?", fixture->name()));
   }
-  return heard.lapsed.empty() && all_answer(probes) ? kDone : kFailed;
+  return received.lapsed.empty() && all_answer(probes) ? kDone : kFailed;
 }
 
 }  // namespace trivela::cli

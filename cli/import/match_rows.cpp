@@ -34,7 +34,7 @@ class GameState {
     if (!before) match_.command({kBegins.at(static_cast<std::size_t>(imports::first_part(log) - 1)), {}}, 0);
   }
 
-  void hear(const imports::RefereeLine& line, std::int64_t t_ns) {
+  void receive(const imports::RefereeLine& line, std::int64_t t_ns) {
     if (refbox::begun_part(line.command)) match_.command({imports::BoxCommand::kStop, {}}, t_ns);
     match_.command({line.command, side_of(line.side)}, t_ns);
   }
@@ -57,7 +57,7 @@ void write_referee(RowWriting& rows, const imports::RefereeLog& log, imports::Bo
   std::uint64_t seq = 0;
   for (const imports::RefereeLine& line : log.lines) {
     const std::int64_t t_ns = nanoseconds_since(start_ms, line.t_ms);
-    game.hear(line, t_ns);
+    game.receive(line, t_ns);
     msg::Referee row = game.message(t_ns);
     row.seq = row.command_counter = ++seq;
     rows.write(row);
@@ -69,7 +69,7 @@ class GameAt {
  public:
   explicit GameAt(const imports::RefereeLog& log) : log_(log), game_(log, imports::BoxSide::kBoth) {}
   msg::Referee at(std::int64_t t_ms) {
-    for (; next_ < log_.lines.size() && log_.lines[next_].t_ms <= t_ms; ++next_) game_.hear(log_.lines[next_], 0);
+    for (; next_ < log_.lines.size() && log_.lines[next_].t_ms <= t_ms; ++next_) game_.receive(log_.lines[next_], 0);
     return game_.message(0);
   }
 
@@ -82,7 +82,7 @@ class GameAt {
 /// Velocities in F [m/s, m/s, rad/s], from the latest pose where none is told.
 class Velocities {
  public:
-  std::optional<std::array<double, 3>> of(const imports::ToldRobot& robot, std::int64_t t_ms) {
+  std::optional<std::array<double, 3>> of(const imports::ReportedRobot& robot, std::int64_t t_ms) {
     const auto [place, first] = latest_.try_emplace(robot.id, Latest{robot, t_ms});
     const Latest before = std::exchange(place->second, Latest{robot, t_ms});
     if (robot.velocity) return robot.velocity;
@@ -96,15 +96,15 @@ class Velocities {
 
  private:
   struct Latest {
-    imports::ToldRobot robot;
+    imports::ReportedRobot robot;
     std::int64_t t_ms = 0;
   };
   std::map<int, Latest> latest_;  // by robot
 };
 
 /// The robot's twist is told in F and stands in R: turned by minus its heading.
-msg::WorldState world_state(const imports::ToldRobot& robot, const std::array<double, 3>& velocity,
-                            const std::optional<imports::ToldBall>& ball) {
+msg::WorldState world_state(const imports::ReportedRobot& robot, const std::array<double, 3>& velocity,
+                            const std::optional<imports::ReportedBall>& ball) {
   const double c = std::cos(robot.heading_rad), s = std::sin(robot.heading_rad);
   msg::WorldState row{};
   row.robot_id = static_cast<std::uint8_t>(robot.id);
@@ -131,7 +131,7 @@ void write_team(RowWriting& rows, const imports::TeamLog& team, const std::vecto
   std::map<int, std::uint64_t> seqs;
   for (std::size_t i = 0; i < team.usable.size(); ++i) {
     const msg::Referee now = game.at(times_ms[i]);
-    for (const imports::ToldRobot& robot : team.usable[i].robots) {
+    for (const imports::ReportedRobot& robot : team.usable[i].robots) {
       const auto velocity = velocities.of(robot, times_ms[i]);
       imported.without_velocity += velocity ? 0 : 1;
       if (!velocity) continue;

@@ -1,5 +1,5 @@
 #include "cli/kick/row_verbs.hpp"
-#include "evaluator/story/kick_picture.hpp"
+#include "evaluator/timeline/kick_picture.hpp"
 
 namespace trivela::cli {
 namespace {

@@ -1,6 +1,6 @@
 #include "cli/kick/row_verbs.hpp"
 #include "config/robot.hpp"
-#include "evaluator/story/kick_picture.hpp"
+#include "evaluator/timeline/kick_picture.hpp"
 #include "kicking/ballistics/drag.hpp"
 #include "kicking/ballistics/kick_speeds.hpp"
 
@@ -39,7 +39,7 @@ kicking::WantedKick wanted(const Row& row, const FlightConstants& constants) {
 /// The robot faces the goal's middle; the ball leaves at once.
 std::string draw(const Row& row, const FlightConstants& constants) {
   const kicking::WantedKick want = wanted(row, constants);
-  const kicking::Maybe vk = kicking::kick_speeds(want).vk_exact_mps;
+  const kicking::OptionalDouble vk = kicking::kick_speeds(want).vk_exact_mps;
   if (!vk) throw std::runtime_error("--svg: no speed solves this kick, there is nothing to draw");
   evaluator::KickPicture picture{.twist = {0.0, want.v_front_mps, 0.0},
                                  .kick = {.v_kick_mps = *vk,

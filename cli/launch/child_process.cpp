@@ -129,7 +129,7 @@ ChildProcess start_node(const std::string& node, const std::filesystem::path& co
   return {node, started.program, started.arguments, output};
 }
 
-std::string casualty(std::deque<ChildProcess>& nodes) {
+std::string dead_node(std::deque<ChildProcess>& nodes) {
   for (ChildProcess& node : nodes) {
     if (node.ended()) return fmt::format("{} died ({})", node.name(), node.how_it_ended());
   }

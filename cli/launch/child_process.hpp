@@ -53,7 +53,7 @@ class ChildProcess {
 ChildProcess start_node(const std::string& node, const std::filesystem::path& config_file, int output = -1);
 
 /// The end of a node that should run, as a sentence; empty if all do.
-std::string casualty(std::deque<ChildProcess>& nodes);
+std::string dead_node(std::deque<ChildProcess>& nodes);
 
 /// Ends them. Each is asked once, since a second signal would hit one that has stopped listening. The first `last` of
 /// the list stop after the others, one after the other from behind: the recorder hears what the others say on their way

@@ -102,7 +102,7 @@ MatchResult run_match(const std::string& feeder, const std::filesystem::path& co
       if (!progress.whole()) trouble = fmt::format("{} was stopped before the end", feeder);
       break;
     }
-    if (trouble = casualty(children); !trouble.empty()) break;
+    if (trouble = dead_node(children); !trouble.empty()) break;
   }
   return end_match(children, 1, std::move(trouble), progress.played_s(), started);
 }
@@ -119,7 +119,7 @@ MatchResult run_emulated_match(const std::filesystem::path& world_config, const 
   Watch watch{progress, signals};
   while (trouble.empty() && !progress.begun()) {
     watch.next();
-    trouble = signals.stop_requested() ? "interrupted" : casualty(children);
+    trouble = signals.stop_requested() ? "interrupted" : dead_node(children);
   }
   if (progress.begun() && trouble.empty()) {
     const std::filesystem::path config_file = nodes_config(progress.settings());
@@ -128,7 +128,7 @@ MatchResult run_emulated_match(const std::filesystem::path& world_config, const 
   }
   while (trouble.empty() && !progress.whole()) {
     watch.next();
-    trouble = signals.stop_requested() ? "interrupted" : casualty(children);
+    trouble = signals.stop_requested() ? "interrupted" : dead_node(children);
   }
   return end_match(children, 2, std::move(trouble), progress.played_s(), started);
 }

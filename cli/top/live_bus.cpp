@@ -157,25 +157,26 @@ Listening::Listening(const bus::DomainConfig& domain, std::optional<std::uint8_t
   const bool secured = domain.xml.find("<Security>") != std::string::npos;
   bus::for_each_message([this, secured]<class T>() {
     if (secured && std::string_view{bus::meta<T>::topic}.starts_with("sim/")) return;
-    ears_.push_back(
+    subscribers_.push_back(
         std::make_unique<monitor::StreamSubscriber<T>>(participant_, [this](const T& sample, const auto& info) {
-          monitor::Heard heard{.writer = info.writer,
-                               .seq = {},
-                               .t_ns = sample.t_ns,
-                               .source_ns = info.source_t_ns,
-                               .received_ns = steady_ns(),
-                               .received_real_ns = real_ns()};
-          if constexpr (requires { sample.seq; }) heard.seq = sample.seq;
-          hear(std::string{bus::meta<T>::topic}, sample.robot_id, heard);
+          monitor::ReceivedSample received_sample{.writer = info.writer,
+                                                  .seq = {},
+                                                  .t_ns = sample.t_ns,
+                                                  .source_ns = info.source_t_ns,
+                                                  .received_ns = steady_ns(),
+                                                  .received_real_ns = real_ns()};
+          if constexpr (requires { sample.seq; }) received_sample.seq = sample.seq;
+          receive(std::string{bus::meta<T>::topic}, sample.robot_id, received_sample);
         }));
   });
 }
 
 Listening::~Listening() = default;
 
-void Listening::hear(const std::string& topic, std::uint8_t robot_id, const monitor::Heard& heard) {
+void Listening::receive(const std::string& topic, std::uint8_t robot_id,
+                        const monitor::ReceivedSample& received_sample) {
   const std::lock_guard lock{mutex_};
-  board_.hear(topic, robot_id, heard);
+  board_.receive(topic, robot_id, received_sample);
 }
 
 monitor::BusPicture Listening::look() {

@@ -24,13 +24,13 @@ class Listening {
   monitor::BusPicture look();
 
  private:
-  void hear(const std::string& topic, std::uint8_t robot_id, const monitor::Heard& heard);
+  void receive(const std::string& topic, std::uint8_t robot_id, const monitor::ReceivedSample& received_sample);
 
   bus::Participant participant_;
   bus::CensusTaker census_;
   std::mutex mutex_;  // of the board: samples come on the bus's threads
   monitor::BusSnapshot board_;
-  std::vector<std::unique_ptr<monitor::PassiveSubscriber>> ears_;
+  std::vector<std::unique_ptr<monitor::PassiveSubscriber>> subscribers_;
 };
 
 /// The bus as tables: topics, then processes. What nobody writes and nobody said is left out but for a line that names

@@ -79,7 +79,7 @@ void EmulatedDrive::take(const can::Frame& frame, std::int64_t now_ns, Frames& o
   const auto master = static_cast<std::uint8_t>(consumed >> 16U & 0x7FU);
   if ((consumed & 0xFFFFU) != 0 && heartbeat_of(frame, master)) {
     watching_ = true;
-    heard_ns_ = now_ns;
+    received_ns_ = now_ns;
   }
 }
 
@@ -126,7 +126,7 @@ void EmulatedDrive::write(Object object, std::uint32_t value, std::int64_t now_n
   if (faults.forgets_heartbeat && object == kHeartbeatConsumer) return;
   objects_[key(object)].value = value;
   if (object == kControlword) control(static_cast<std::uint16_t>(value), now_ns);
-  if (object == kHeartbeatProducer) beat_ns_ = now_ns;
+  if (object == kHeartbeatProducer) heartbeat_ns_ = now_ns;
   if (object == kHeartbeatConsumer) watching_ = false;  // until it hears one
   if (object == kTarget && state_ == DriveState::kEnabled) {
     const bool faster = std::abs(target_rpm()) > std::abs(motor_.rpm(now_ns));
@@ -218,7 +218,7 @@ void EmulatedDrive::fail(std::uint16_t code, std::int64_t now_ns, Frames& out) {
 
 std::int64_t EmulatedDrive::consumer_due_ns() const {
   const auto period_ms = static_cast<std::int64_t>(value(kHeartbeatConsumer) & 0xFFFFU);
-  return watching_ && period_ms != 0 ? heard_ns_ + period_ms * kMs_ns : kNever_ns;
+  return watching_ && period_ms != 0 ? received_ns_ + period_ms * kMs_ns : kNever_ns;
 }
 
 /// What it does is that of the instant at which the heartbeat was missing.
@@ -240,15 +240,15 @@ void EmulatedDrive::tick(std::int64_t now_ns, Frames& out) {
   if (now_ns >= consumer_due_ns()) lose_master(out);
   settle(now_ns);
   const std::int64_t period_ns = value(kHeartbeatProducer) * kMs_ns;
-  if (boot_ns_ || period_ns == 0 || now_ns < beat_ns_ + period_ns) return;
-  beat_ns_ = now_ns;
+  if (boot_ns_ || period_ns == 0 || now_ns < heartbeat_ns_ + period_ns) return;
+  heartbeat_ns_ = now_ns;
   say(heartbeat(node_, nmt_), out);
 }
 
 std::int64_t EmulatedDrive::next_ns() const {
   if (boot_ns_) return *boot_ns_;
   const std::int64_t period_ns = value(kHeartbeatProducer) * kMs_ns;
-  return std::min(period_ns == 0 ? kNever_ns : beat_ns_ + period_ns, consumer_due_ns());
+  return std::min(period_ns == 0 ? kNever_ns : heartbeat_ns_ + period_ns, consumer_due_ns());
 }
 
 }  // namespace trivela::hal::cia402

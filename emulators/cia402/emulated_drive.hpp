@@ -90,7 +90,7 @@ class EmulatedDrive {
   /// When its motor has come, or will come to rest; none: it turns.
   std::optional<std::int64_t> rest_ns() const { return motor_.rest_ns(); }
   /// When it last heard the heartbeat that it watches.
-  std::int64_t heard_ns() const { return heard_ns_; }
+  std::int64_t received_ns() const { return received_ns_; }
   /// SYNCs that it answered.
   std::uint64_t answers() const { return answers_; }
   std::uint64_t boots() const { return boots_; }
@@ -123,9 +123,9 @@ class EmulatedDrive {
   Motor motor_;
   std::uint16_t controlword_ = 0;
   std::optional<std::int64_t> boot_ns_;  // it comes up then
-  std::int64_t beat_ns_ = 0;             // its last heartbeat
+  std::int64_t heartbeat_ns_ = 0;        // its last heartbeat
   bool watching_ = false;
-  std::int64_t heard_ns_ = 0;
+  std::int64_t received_ns_ = 0;
   std::uint64_t answers_ = 0;
   std::uint64_t boots_ = 0;
   std::uint64_t resets_ = 0;

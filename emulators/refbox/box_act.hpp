@@ -14,12 +14,12 @@
 namespace trivela::hal::refbox {
 
 /// A command that an emulated box says; team 0 is the left one, in cyan, 1 the right one, in magenta; none: both.
-struct Said {
+struct BoxCommand {
   CommandKind kind = CommandKind::kStop;
   std::optional<std::size_t> team{};
   std::optional<int> robot_id{};
 
-  friend bool operator==(const Said&, const Said&) = default;
+  friend bool operator==(const BoxCommand&, const BoxCommand&) = default;
 };
 
 /// What real boxes and their networks do to a client.
@@ -49,7 +49,7 @@ inline constexpr std::array<std::pair<std::string_view, BoxFault>, 11> kBoxFault
                                                                                    {"deaf", BoxFault::kDeaf},
                                                                                    {"heal", BoxFault::kHeal}}};
 
-using BoxAct = std::variant<Said, BoxFault>;
+using BoxAct = std::variant<BoxCommand, BoxFault>;
 
 /// An act at its time [s] from the beginning.
 struct BoxStep {

@@ -24,12 +24,12 @@ std::optional<BoxAct> act_of_key(char key) {
   for (const auto& [known, fault] : kFaultKeys) {
     if (known == key) return fault;
   }
-  if (key == ' ') return Said{.kind = CommandKind::kStop};
-  if (key == 'E') return Said{.kind = CommandKind::kEndPart};
-  const Word word = read_letter(key, Colour::kCyan);
+  if (key == ' ') return BoxCommand{.kind = CommandKind::kStop};
+  if (key == 'E') return BoxCommand{.kind = CommandKind::kEndPart};
+  const ParsedCommand word = read_letter(key, Colour::kCyan);
   const auto* const command = std::get_if<Command>(&word);
   if (command == nullptr) return std::nullopt;
-  Said said{.kind = command->kind};
+  BoxCommand said{.kind = command->kind};
   if (command->side != Side::kBoth) said.team = command->side == Side::kOurs ? 0 : 1;
   return said;
 }

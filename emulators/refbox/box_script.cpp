@@ -66,10 +66,10 @@ class ScriptLine {
     fail("is no fault", words_[2]);
   }
 
-  Said said() const {
+  BoxCommand said() const {
     const auto kind = kind_of(words_[1]);
     if (!kind) fail("is no command", words_[1]);
-    Said said{.kind = *kind};
+    BoxCommand said{.kind = *kind};
     if (words_.size() > 2) said.team = team(words_[2]);
     if (words_.size() > 3) {
       said.robot_id = number_of<int>(words_[3]);
@@ -95,20 +95,20 @@ class ScriptLine {
 /// The teams of a log's objects: the first that is named is the left one.
 class LoggedTeams {
  public:
-  std::optional<Said> said(const std::string& object) {
+  std::optional<BoxCommand> said(const std::string& object) {
     const auto json = nlohmann::json::parse(object, nullptr, false);
     if (!json.is_object()) return std::nullopt;
     const auto target = json.find("targetTeam");
     if (left_.empty() && target != json.end() && target->is_string()) left_ = target->get<std::string>();
-    const Word word = read_object(object, left_);
+    const ParsedCommand word = read_object(object, left_);
     const auto* const command = std::get_if<Command>(&word);
     if (command == nullptr) return std::nullopt;
     return from(*command);
   }
 
   /// Of a box since 2020: "robotID:N," where it is of a robot, then the team's name. The first name is the left one's.
-  Said said(CommandKind kind, std::string_view behind) {
-    Said said{.kind = kind};
+  BoxCommand said(CommandKind kind, std::string_view behind) {
+    BoxCommand said{.kind = kind};
     constexpr std::string_view kRobot = "robotID:";
     if (const auto place = behind.find(kRobot); place != std::string_view::npos) {
       const std::string_view number = behind.substr(place + kRobot.size());
@@ -123,8 +123,8 @@ class LoggedTeams {
     return said;
   }
 
-  static Said from(const Command& command) {
-    Said said{.kind = command.kind, .robot_id = command.robot_id};
+  static BoxCommand from(const Command& command) {
+    BoxCommand said{.kind = command.kind, .robot_id = command.robot_id};
     if (command.side != Side::kBoth) said.team = command.side == Side::kOurs ? 0 : 1;
     return said;
   }
@@ -134,17 +134,17 @@ class LoggedTeams {
 };
 
 /// What a line's code says: everything after the third comma of the line.
-std::optional<Said> logged(std::string_view code, LoggedTeams& teams) {
+std::optional<BoxCommand> logged(std::string_view code, LoggedTeams& teams) {
   if (code.starts_with('{')) return teams.said(std::string(code.substr(0, code.rfind('}') + 1)));
   const std::string_view word = code.substr(0, code.find(','));
   if (word.size() == 1) {
-    const Word read = read_letter(word[0], Colour::kCyan);
+    const ParsedCommand read = read_letter(word[0], Colour::kCyan);
     const auto* const command = std::get_if<Command>(&read);
     return command ? std::optional{LoggedTeams::from(*command)} : std::nullopt;
   }
   const auto kind = kind_of(word);
   if (!kind) return std::nullopt;
-  if (name(*kind) == word) return Said{.kind = *kind};
+  if (name(*kind) == word) return BoxCommand{.kind = *kind};
   return teams.said(*kind, code.substr(std::min(word.size() + 1, code.size())));
 }
 

@@ -8,11 +8,11 @@ namespace trivela::hal::refbox {
 namespace {
 
 /// The letter that the old protocol has for a command of the team in cyan, or of both.
-std::string letter_of(const Said& said) {
+std::string letter_of(const BoxCommand& said) {
   const Colour colour = said.team == std::size_t{1} ? Colour::kMagenta : Colour::kCyan;
   const Side side = said.team ? Side::kOurs : Side::kBoth;
   for (char letter = '!'; letter <= '~'; ++letter) {
-    const Word word = read_letter(letter, colour);
+    const ParsedCommand word = read_letter(letter, colour);
     const auto* const command = std::get_if<Command>(&word);
     if (command != nullptr && command->kind == said.kind && command->side == side) return {letter};
   }
@@ -21,7 +21,7 @@ std::string letter_of(const Said& said) {
 
 }  // namespace
 
-std::string wire_text(const Said& said, const BoxConfig& config) {
+std::string wire_text(const BoxCommand& said, const BoxConfig& config) {
   if (config.protocol == Protocol::kLetters) return letter_of(said);
   nlohmann::json object{{"command", name(said.kind)}, {"targetTeam", said.team ? config.groups.at(*said.team) : ""}};
   if (said.robot_id) object["robotID"] = *said.robot_id;

@@ -58,7 +58,7 @@ struct EmulatedBox::State {
     Framing framing{};
   };
 
-  struct Heard {
+  struct Received {
     TeamReport report;
     Clock::time_point first{};
     Clock::time_point last{};
@@ -105,7 +105,7 @@ struct EmulatedBox::State {
       const std::lock_guard lock{mutex};
       if (!second_half.empty() && Clock::now() >= half_due) write_all(std::exchange(second_half, {}));
       if ((watched[1].revents & POLLIN) != 0) accept();
-      std::erase_if(clients, [this](Client& client) { return !hear(client); });
+      std::erase_if(clients, [this](Client& client) { return !receive(client); });
       changed.notify_all();
     }
   }
@@ -124,7 +124,7 @@ struct EmulatedBox::State {
       ::shutdown(socket.get(), SHUT_RDWR);
       return;
     }
-    heard[*team].report.connected = true;
+    received[*team].report.connected = true;
     clients.push_back({.socket = std::move(socket), .team = *team});
     const std::string welcome = wire_text({.kind = CommandKind::kWelcome, .team = team}, config);
     write_all(welcome.empty() ? wire_text({.kind = CommandKind::kWelcome}, config) : welcome);
@@ -146,18 +146,18 @@ struct EmulatedBox::State {
   }
 
   /// Takes what a client says; false: it is gone.
-  bool hear(Client& client) {
+  bool receive(Client& client) {
     if (deaf && (client.socket.wait(0, Clock::now()) & (POLLERR | POLLHUP)) == 0) return true;
     std::array<char, 8192> bytes;
     std::string why;
     const auto count = client.socket.read(bytes, Clock::now(), why);
-    if (!count) heard[client.team].report.connected = false;
+    if (!count) received[client.team].report.connected = false;
     for (const Framed& object : client.framing.add({bytes.data(), count.value_or(0)})) note(client.team, object);
     return count.has_value();
   }
 
   void note(std::size_t team, const Framed& object) {
-    Heard& of = heard[team];
+    Received& of = received[team];
     of.report.last = object.text;
     const auto problem =
         object.overlong ? std::optional<std::string>{"it is too long"} : worldstate_problem(object.text);
@@ -202,7 +202,7 @@ struct EmulatedBox::State {
     for (Client& client : clients) {
       const linger at_once{1, 0};
       if (reset) ::setsockopt(client.socket.get(), SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
-      heard[client.team].report.connected = false;
+      received[client.team].report.connected = false;
     }
     clients.clear();
     poke();
@@ -246,7 +246,7 @@ struct EmulatedBox::State {
   mutable std::mutex mutex;
   mutable std::condition_variable changed;
   std::list<Client> clients;
-  std::array<Heard, 2> heard;
+  std::array<Received, 2> received;
   int merging = 0;
   std::string merged;
   bool splitting = false;
@@ -266,7 +266,7 @@ std::uint16_t EmulatedBox::port() const { return state_->config.port; }
 void EmulatedBox::act(const BoxAct& act) {
   const std::lock_guard lock{state_->mutex};
   if (const auto* const fault = std::get_if<BoxFault>(&act)) return state_->suffer(*fault);
-  state_->say(wire_text(std::get<Said>(act), state_->config));
+  state_->say(wire_text(std::get<BoxCommand>(act), state_->config));
 }
 
 void EmulatedBox::send(std::string_view bytes) {
@@ -276,7 +276,7 @@ void EmulatedBox::send(std::string_view bytes) {
 
 TeamReport EmulatedBox::report(std::size_t team) const {
   const std::lock_guard lock{state_->mutex};
-  return state_->heard.at(team).report;
+  return state_->received.at(team).report;
 }
 
 bool EmulatedBox::wait_for_teams(std::size_t n, std::chrono::nanoseconds timeout) const {
@@ -286,7 +286,7 @@ bool EmulatedBox::wait_for_teams(std::size_t n, std::chrono::nanoseconds timeout
 
 bool EmulatedBox::wait_for_objects(std::size_t team, std::uint64_t n, std::chrono::nanoseconds timeout) const {
   std::unique_lock lock{state_->mutex};
-  return state_->changed.wait_for(lock, timeout, [&] { return state_->heard.at(team).report.objects >= n; });
+  return state_->changed.wait_for(lock, timeout, [&] { return state_->received.at(team).report.objects >= n; });
 }
 
 }  // namespace trivela::hal::refbox

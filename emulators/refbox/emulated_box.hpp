@@ -70,6 +70,6 @@ std::optional<std::string> worldstate_problem(std::string_view object);
 
 /// A command as the box writes it on the wire, with its NUL; by letters, with none. Empty: the old protocol has no word
 /// for it.
-std::string wire_text(const Said& said, const BoxConfig& config);
+std::string wire_text(const BoxCommand& said, const BoxConfig& config);
 
 }  // namespace trivela::hal::refbox

@@ -13,15 +13,15 @@ static_assert(kFirstWords.size() == RefereeOutput::kMostHalves && kLastWords.siz
 
 }  // namespace
 
-void RefereeOutput::say_new_half(const sim::RefereeState& word, std::vector<Said>& words) const {
+void RefereeOutput::say_new_half(const sim::RefereeState& word, std::vector<BoxCommand>& words) const {
   if (said_) words.push_back({.kind = kLastWords.at(static_cast<std::size_t>(said_->half) - 1)});
   words.push_back({.kind = kFirstWords.at(static_cast<std::size_t>(word.half) - 1)});
 }
 
-std::vector<Said> RefereeOutput::hear(const sim::RefereeState& word) {
+std::vector<BoxCommand> RefereeOutput::receive(const sim::RefereeState& word) {
   const bool new_half = !said_ || word.half != said_->half;
   const bool new_possession = new_half || word.possession_id != said_->possession_id;
-  std::vector<Said> words;
+  std::vector<BoxCommand> words;
   const bool played = said_ && said_->playing;
   const bool stopped = played && (!word.playing || new_possession);
   if (stopped) words.push_back({.kind = CommandKind::kStop});
@@ -36,6 +36,8 @@ std::vector<Said> RefereeOutput::hear(const sim::RefereeState& word) {
   return words;
 }
 
-std::vector<Said> RefereeOutput::over() { return {{.kind = CommandKind::kStop}, {.kind = CommandKind::kGameOver}}; }
+std::vector<BoxCommand> RefereeOutput::over() {
+  return {{.kind = CommandKind::kStop}, {.kind = CommandKind::kGameOver}};
+}
 
 }  // namespace trivela::hal::refbox

@@ -23,13 +23,13 @@ class RefereeOutput {
   explicit RefereeOutput(std::size_t our_team = 0) : our_team_(our_team) {}
 
   /// What is new in `word` against the last one, in the order in which it is to be said. Half 1 to kMostHalves.
-  std::vector<Said> hear(const sim::RefereeState& word);
+  std::vector<BoxCommand> receive(const sim::RefereeState& word);
 
   /// What is said when the match is over.
-  static std::vector<Said> over();
+  static std::vector<BoxCommand> over();
 
  private:
-  void say_new_half(const sim::RefereeState& word, std::vector<Said>& words) const;
+  void say_new_half(const sim::RefereeState& word, std::vector<BoxCommand>& words) const;
 
   std::size_t our_team_;
   std::optional<sim::RefereeState> said_;

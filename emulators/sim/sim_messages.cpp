@@ -100,7 +100,7 @@ msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeState& word) {
   out.goals_own =
       static_cast<std::uint16_t>(std::min(word.goals, std::uint32_t{std::numeric_limits<std::uint16_t>::max()}));
   out.command_counter = word.commands;
-  out.half_time_s = word.half_s.wire();
+  out.half_time_s = word.half_s.to_message();
   return out;
 }
 
@@ -135,7 +135,7 @@ msg::KickTruth truth_message(const sim::KickTruth& truth) {
   out.release_vx_mps = truth.release_velocity_mps.x();
   out.release_vy_mps = truth.release_velocity_mps.y();
   out.release_vz_mps = truth.release_velocity_mps.z();
-  out.margin_m = truth.margin_m.wire();
+  out.margin_m = truth.margin_m.to_message();
   out.saved = truth.saved;
   out.bounced = truth.bounced;
   return out;

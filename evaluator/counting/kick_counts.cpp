@@ -9,10 +9,11 @@
 namespace trivela::evaluator {
 namespace {
 
-std::string line(std::span<const NamedInside> groups, const char* what, SaidOfInside InsideKicks::*said, bool truth) {
+std::string line(std::span<const NamedInside> groups, const char* what, ReportsOfInside InsideKicks::*said,
+                 bool truth) {
   std::vector<std::string> parts;
   for (const NamedInside& group : groups) {
-    const SaidOfInside& of = group.inside.*said;
+    const ReportsOfInside& of = group.inside.*said;
     if ((truth ? of.truth : of.observed) == 0) continue;
     parts.push_back(
         fmt::format("{} {} of {}", group.name, truth ? of.truth_yes : of.observed_yes, truth ? of.truth : of.observed));
@@ -36,7 +37,7 @@ const char* label_of(Ending ending) {
 
 }  // namespace
 
-SaidOfInside& SaidOfInside::operator+=(const SaidOfInside& other) {
+ReportsOfInside& ReportsOfInside::operator+=(const ReportsOfInside& other) {
   observed += other.observed;
   observed_yes += other.observed_yes;
   truth += other.truth;
@@ -44,7 +45,7 @@ SaidOfInside& SaidOfInside::operator+=(const SaidOfInside& other) {
   return *this;
 }
 
-void KickCounts::add(const std::string& label, const SaidOfKick& said) {
+void KickCounts::add(const std::string& label, const ReportsOfKick& said) {
   ++kicks_by_outcome[label];
   if (label != label_of(Ending::kInside)) return;
   inside_kicks.bounced.add(said.bounced, said.truth_bounced);
@@ -102,7 +103,7 @@ std::string inside_lines(std::span<const NamedInside> groups) {
   return text + line(groups, kSaved, &InsideKicks::saved, true);
 }
 
-Json said_json(const SaidOfInside& said, const char* what) {
+Json said_json(const ReportsOfInside& said, const char* what) {
   return {{"observed", share(said.observed_yes, said.observed, what)},
           {"truth", share(said.truth_yes, said.truth, what)}};
 }

@@ -14,7 +14,7 @@ namespace trivela::evaluator {
 
 /// Of how many balls inside something was said, and of how many it was so: by the robots' observer or a person, and by
 /// the simulator's truth, which matches without simulation have not.
-struct SaidOfInside {
+struct ReportsOfInside {
   std::int64_t observed = 0;
   std::int64_t observed_yes = 0;
   std::int64_t truth = 0;
@@ -26,14 +26,14 @@ struct SaidOfInside {
     truth += is ? 1 : 0;
     truth_yes += is.value_or(false) ? 1 : 0;
   }
-  SaidOfInside& operator+=(const SaidOfInside& other);
+  ReportsOfInside& operator+=(const ReportsOfInside& other);
   bool any() const { return observed_yes > 0 || truth_yes > 0; }
 };
 
 /// Balls inside: those that touched the floor before the line, and those that a keeper stopped.
 struct InsideKicks {
-  SaidOfInside bounced;
-  SaidOfInside saved;
+  ReportsOfInside bounced;
+  ReportsOfInside saved;
   std::int64_t by_people = 0;  ///< of which somebody says whether they were saved
 
   /// Goals are to be shown: a keeper saved something, or people say what were goals.
@@ -50,7 +50,7 @@ struct KickCounts {
   std::optional<double> played_min;  ///< minutes of play in the possessions in which it had the ball; none: not known
 
   /// A kick with the label that holds, and what was said of it if it was on target.
-  void add(const std::string& label, const SaidOfKick& said);
+  void add(const std::string& label, const ReportsOfKick& said);
   /// An opportunity; without a kick it adds nothing.
   void add(const Opportunity& opportunity);
   KickCounts& operator+=(const KickCounts& other);
@@ -89,6 +89,6 @@ struct NamedInside {
 std::string inside_lines(std::span<const NamedInside> groups);
 
 /// {"observed": {`what`, "of"}, "truth": ...}; null where nobody says it.
-Json said_json(const SaidOfInside& said, const char* what);
+Json said_json(const ReportsOfInside& said, const char* what);
 
 }  // namespace trivela::evaluator

@@ -31,7 +31,7 @@ const char* label(Design design);
 std::optional<Design> design_of(const std::string& label);
 
 /// What was said of a kick on target, as observed and by the simulator's truth; none: nothing.
-struct SaidOfKick {
+struct ReportsOfKick {
   std::optional<bool> bounced{}, truth_bounced{};  ///< it touched the floor before the line
   std::optional<bool> saved{}, truth_saved{};      ///< a keeper stopped it; `saved`: or so somebody says
   bool by_people = false;                          ///< somebody says of it goal or saved
@@ -48,7 +48,7 @@ struct Opportunity {
   std::uint32_t calibration =
       0;               ///< number of the calibration that the robots were calibrated on; 0 where none is named
   double doubt = 0.0;  ///< probability that a kick called inside was not, or one called outside was
-  SaidOfKick said{};
+  ReportsOfKick said{};
   std::optional<bool> saved{};  ///< a keeper stopped it, by what the ending is of
 };
 

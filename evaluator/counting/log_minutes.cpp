@@ -16,11 +16,11 @@ using Possession = std::tuple<std::uint32_t, int, std::int64_t>;  // play, half,
 using Holders = std::set<PolicyOfRobot>;
 
 /// The time that spans cover together, of which so much was played as in the spans on average.
-double minutes_of(std::vector<const HeardSpan*> spans) {
-  std::ranges::sort(spans, {}, [](const HeardSpan* span) { return span->from_ns; });
+double minutes_of(std::vector<const RecordedSpan*> spans) {
+  std::ranges::sort(spans, {}, [](const RecordedSpan* span) { return span->from_ns; });
   double covered_ns = 0.0, sum_ns = 0.0, played_ns = 0.0;
   std::optional<std::int64_t> end_ns;
-  for (const HeardSpan* const span : spans) {
+  for (const RecordedSpan* const span : spans) {
     const std::int64_t from_ns = std::max(span->from_ns, end_ns.value_or(span->from_ns));
     end_ns = std::max(span->to_ns, end_ns.value_or(span->to_ns));
     covered_ns += static_cast<double>(std::max<std::int64_t>(*end_ns - from_ns, 0));
@@ -92,7 +92,8 @@ std::int64_t TruthCount::number(std::int64_t session_id, int robot_id, int half,
   return other == other_.end() ? own : other->second;
 }
 
-void hear_play(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths, HeardPlay& heard) {
+void read_play(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths,
+               RecordedPlay& received) {
   reader.query(kPlayedSpansSql, [&](const log::NamedCells& row) {
     const auto session_id = row.get<std::int64_t>("session_id");
     const auto of_robot = row.find<int>("of_robot");
@@ -101,25 +102,26 @@ void hear_play(const log::Reader& reader, const SessionPlaces& sessions, const T
     const auto session = sessions.find(session_id);
     if (session == sessions.end()) return;
     const std::int64_t id = of_robot ? truths.number(session_id, *of_robot, half, possession_id) : possession_id;
-    heard.spans.push_back({session->second, of_robot.value_or(0), half, id, row.get<std::int64_t>("from_ns"),
-                           row.get<std::int64_t>("to_ns"), row.get<std::int64_t>("played_ns")});
+    received.spans.push_back({session->second, of_robot.value_or(0), half, id, row.get<std::int64_t>("from_ns"),
+                              row.get<std::int64_t>("to_ns"), row.get<std::int64_t>("played_ns")});
   });
   reader.query("SELECT session_id, half, robot_id, policy FROM session_policies",
                [&](std::int64_t session_id, int half, int robot_id, const std::string& policy) {
                  const auto session = sessions.find(session_id);
-                 if (session != sessions.end()) heard.policies.push_back({session->second, half, {robot_id, policy}});
+                 if (session != sessions.end())
+                   received.policies.push_back({session->second, half, {robot_id, policy}});
                });
 }
 
-std::vector<PlayedSpan> played_spans(const HeardPlay& heard, const LoggedOpportunities& logged) {
+std::vector<PlayedSpan> played_spans(const RecordedPlay& received, const LoggedOpportunities& logged) {
   std::map<Possession, Holders> holders;
   for (const LoggedOpportunity& o : logged.rows) {
     if (o.possession_id == 0) continue;
     holders[{logged.sessions[o.session].play, o.half, o.possession_id}].insert({o.robot_id, o.policy});
   }
-  const PoliciesOfHalves halves(heard.policies, logged);
-  std::map<std::pair<Possession, int>, std::vector<const HeardSpan*>> spans;  // and by robot that counts its own
-  for (const HeardSpan& span : heard.spans) {
+  const PoliciesOfHalves halves(received.policies, logged);
+  std::map<std::pair<Possession, int>, std::vector<const RecordedSpan*>> spans;  // and by robot that counts its own
+  for (const RecordedSpan& span : received.spans) {
     const ComparedSession& session = logged.sessions[span.session];
     if (session.counts && !session.halves_left_out.contains(span.half))
       spans[{{session.play, span.half, span.possession_id}, span.of_robot}].push_back(&span);

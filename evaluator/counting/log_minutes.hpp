@@ -53,7 +53,7 @@ struct PossessionHash {
 using PossessionPlaces = std::unordered_map<PossessionKey, std::size_t, PossessionHash>;
 
 /// Play of a possession as one recording heard it from one robot's referee.
-struct HeardSpan {
+struct RecordedSpan {
   std::uint32_t session = 0;
   int of_robot = 0;  ///< that counts its own possessions; 0: the referee counts them, for all
   int half = 0;
@@ -71,17 +71,18 @@ struct PolicyOfHalf {
 };
 
 /// What logs say of play and of who was in charge of it.
-struct HeardPlay {
-  std::vector<HeardSpan> spans;
+struct RecordedPlay {
+  std::vector<RecordedSpan> spans;
   std::vector<PolicyOfHalf> policies;
 };
 
 /// Adds what a log says of these sessions. Possessions that `truths` knows go by the simulator's count.
-void hear_play(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths, HeardPlay& heard);
+void read_play(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths,
+               RecordedPlay& received);
 
 /// Minutes of play of each possession, once, however many recordings and robots heard the referee: the time that any of
 /// them covers. `logged` has the sessions and the opportunities, whose robots had the ball. A possession that nobody is
 /// known to have had is of the policy of its half, where all robots of the session have the same one.
-std::vector<PlayedSpan> played_spans(const HeardPlay& heard, const LoggedOpportunities& logged);
+std::vector<PlayedSpan> played_spans(const RecordedPlay& received, const LoggedOpportunities& logged);
 
 }  // namespace trivela::evaluator

@@ -28,7 +28,7 @@ Ending ending_of(const std::string& outcome) {
 struct SeenRows {
   std::vector<LoggedOpportunity> opportunities;
   std::vector<CountedKick> kicks;
-  HeardPlay play;
+  RecordedPlay play;
 };
 
 // The possession of a row by its robot's own count, in the simulator's count where that has one; none: a session that
@@ -196,7 +196,7 @@ class OpportunityReading {
     const TruthCount truths(reader);
     see_opportunities(reader, fresh, truths, seen_);
     see_kicks(reader, fresh, truths, truth_, seen_);
-    hear_play(reader, fresh, truths, seen_.play);
+    read_play(reader, fresh, truths, seen_.play);
     reader.query("SELECT count(*) FROM assignments WHERE possession_id = 0 AND probability < 1.0",
                  [&](std::int64_t draws) { logged_.draws_of_halves += draws; });
     std::int64_t missing = 0;
@@ -276,7 +276,7 @@ LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>&
     if (logs.size() > 1) append(labels, log::Reader(path, log::Check::kSchema).labels());
   for (const std::filesystem::path& path : logs) {
     log::Reader reader(path);
-    reader.hear_labels(labels);
+    reader.read_labels(labels);
     reading.add(reader, path.string());
   }
   reading.sessions_read().refuse_replays_alone();
@@ -290,7 +290,7 @@ LoggedOpportunities read_opportunities(std::span<const OpenLog> logs, bool truth
   std::vector<log::GivenLabel> labels;
   for (const OpenLog& log : logs)
     if (logs.size() > 1) append(labels, log.reader->labels());
-  for (const OpenLog& log : logs) log.reader->hear_labels(labels);
+  for (const OpenLog& log : logs) log.reader->read_labels(labels);
   for (const OpenLog& log : logs) places.push_back(reading.add(*log.reader, log.name));
   reading.settle();
   for (std::size_t i = 0; i < logs.size(); ++i) {

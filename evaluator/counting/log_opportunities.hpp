@@ -44,7 +44,7 @@ struct LoggedOpportunity {
   Ending ending = Ending::kNoKick;
   double doubt = 0.0;    ///< probability that a kick called inside was not, or one called outside was
   bool blocked = false;  ///< the kick, an Ending::kOutside
-  SaidOfKick said{};
+  ReportsOfKick said{};
   bool has_possession = true;  ///< false: a kick alone
 };
 
@@ -59,7 +59,7 @@ struct CountedKick {
   std::optional<double> distance_m;
   std::int64_t kick_id = 0;
   std::optional<double> p_inside;  ///< of the observed label; none where the truth is asked for
-  SaidOfKick said{};
+  ReportsOfKick said{};
 };
 
 /// Play while a possession lasted.

@@ -150,9 +150,9 @@ class Watch {
     }
     const auto heights = readings(kicks_, true, from_, kicks_.size());
     const auto speeds = readings(kicks_, false, from_, kicks_.size());
-    story_.level = {from_, heights.size(), speeds.size(), mean_of(heights, rule_.height.expected_sd),
-                    mean_of(speeds, rule_.speed.expected_sd)};
-    return std::move(story_);
+    timeline_.level = {from_, heights.size(), speeds.size(), mean_of(heights, rule_.height.expected_sd),
+                       mean_of(speeds, rule_.speed.expected_sd)};
+    return std::move(timeline_);
   }
 
  private:
@@ -174,7 +174,7 @@ class Watch {
     if (by_height && drift.speed) drift.kind = kind_of(*height, *drift.speed);
     drift.factor = drawn_in(drift.factor);
     drift.height_m = drift.factor.value * mean_lever(drift.changed, found);
-    story_.drifts.push_back(drift);
+    timeline_.drifts.push_back(drift);
     from_ = drift.changed;
     height_ = FactorChart(rule_.height);
     speed_ = FactorChart(rule_.speed);
@@ -203,7 +203,7 @@ class Watch {
   const DriftRule& rule_;
   FactorChart height_{rule_.height}, speed_{rule_.speed};
   std::size_t from_ = 0;  // the kicks that the charts have seen begin here
-  DriftEstimate story_;
+  DriftEstimate timeline_;
 };
 
 double percent(double ln) { return 100.0 * std::abs(std::exp(ln) - 1.0); }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kicking/geometry/frames.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::evaluator {
 
@@ -25,8 +25,8 @@ struct WatchedKick {
   double x_m = 0.0, z_m = 0.0, t_flight_s = 0.0;  ///< predicted crossing and flight
   bool seen_to_the_line = false;                  ///< not blocked, outcome known
   bool bounced = false;                           ///< it touched the floor before the line
-  kicking::Maybe z_cross_m{};                     ///< observed
-  kicking::Maybe exit_speed_mps{};                ///< observed, of the ball over ground
+  kicking::OptionalDouble z_cross_m{};            ///< observed
+  kicking::OptionalDouble exit_speed_mps{};       ///< observed, of the ball over ground
 };
 
 /// By how much a kick was stronger than predicted, measured twice: 0.03 is 3 % more speed out of the kicker. It is ln f
@@ -129,8 +129,8 @@ struct DriftEstimate {
 };
 
 /// What the kicks of one robot, in their order, say of its kicker. After a change the charts begin again with the kicks
-/// after it. The same kicks, and any before whose story is the same, give the same drifts: a kick more adds some at the
-/// end and changes none.
+/// after it. The same kicks, and any before whose record is the same, give the same drifts: a kick more adds some at
+/// the end and changes none.
 DriftEstimate drifts_of(std::span<const KickResidual> kicks, const DriftRule& rule = {});
 
 /// What to do, as a sentence for people: by what to multiply the table's speeds, what to measure again.

@@ -110,7 +110,7 @@ class DriftKicks {
       robot.kicks.push_back(row->at);
       residuals.push_back(residual_of(row->kick));
     }
-    robot.story = drifts_of(residuals);
+    robot.timeline = drifts_of(residuals);
     return robot;
   }
 
@@ -133,14 +133,14 @@ std::string head_of(const RobotDrift& robot) {
 
 std::string told(const RobotDrift& robot) {
   std::string text = head_of(robot) + "\n";
-  for (const Drift& drift : robot.story.drifts) {
+  for (const Drift& drift : robot.timeline.drifts) {
     const DriftKick& kick = robot.kicks[drift.changed];
     text += fmt::format("  from kick {} on ({}, kick_id {}): {}; certain with kick {}\n", drift.changed + 1,
                         utc(kick.utc_ns), kick.kick_id, words_of(drift), drift.found + 1);
     text += fmt::format("    {}\n", correction_of(drift));
   }
-  text += fmt::format("  {}: {}\n", robot.story.drifts.empty() ? "no change" : "since then",
-                      level_words(robot.story.level));
+  text += fmt::format("  {}: {}\n", robot.timeline.drifts.empty() ? "no change" : "since then",
+                      level_words(robot.timeline.level));
   return text;
 }
 
@@ -164,7 +164,7 @@ Json drift_json(const RobotDrift& robot, const Drift& drift) {
 }  // namespace
 
 bool DriftReport::found() const {
-  return std::ranges::any_of(robots, [](const RobotDrift& robot) { return !robot.story.drifts.empty(); });
+  return std::ranges::any_of(robots, [](const RobotDrift& robot) { return !robot.timeline.drifts.empty(); });
 }
 
 DriftReport drift_in(const std::vector<std::filesystem::path>& logs) {
@@ -192,7 +192,7 @@ std::string to_text(const DriftReport& report) {
   bool simulated = false;
   for (const RobotDrift& robot : report.robots) {
     simulated = simulated || robot.simulated;
-    if (!robot.story.drifts.empty() || ++quiet <= kMostQuiet) text += told(robot);
+    if (!robot.timeline.drifts.empty() || ++quiet <= kMostQuiet) text += told(robot);
   }
   if (quiet > kMostQuiet) text += fmt::format("and {} more without a change\n", quiet - kMostQuiet);
   if (report.robots.empty()) text = "no kick that was accepted\n";
@@ -201,18 +201,19 @@ std::string to_text(const DriftReport& report) {
 
 std::string to_json(const DriftReport& report) {
   const auto robot_json = [](const RobotDrift& robot) {
-    const DriftLevel& now = robot.story.level;
-    return Json{{"robot", robot.robot_id},
-                {"simulated", robot.simulated},
-                {"kicks", robot.kicks.size()},
-                {"sessions", robot.sessions},
-                {"drifts", json_list(robot.story.drifts, [&](const Drift& drift) { return drift_json(robot, drift); })},
-                {"level",
-                 {{"from_kick", now.from + 1},
-                  {"heights", now.heights},
-                  {"ln_speed_by_heights", shift_json(now.height)},
-                  {"exit_speeds", now.speeds},
-                  {"ln_speed_by_exit_speeds", shift_json(now.speed)}}}};
+    const DriftLevel& now = robot.timeline.level;
+    return Json{
+        {"robot", robot.robot_id},
+        {"simulated", robot.simulated},
+        {"kicks", robot.kicks.size()},
+        {"sessions", robot.sessions},
+        {"drifts", json_list(robot.timeline.drifts, [&](const Drift& drift) { return drift_json(robot, drift); })},
+        {"level",
+         {{"from_kick", now.from + 1},
+          {"heights", now.heights},
+          {"ln_speed_by_heights", shift_json(now.height)},
+          {"exit_speeds", now.speeds},
+          {"ln_speed_by_exit_speeds", shift_json(now.speed)}}}};
   };
   return json_text(Json{{"robots", json_list(report.robots, robot_json)}, {"remarks", report.remarks}});
 }

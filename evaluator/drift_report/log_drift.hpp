@@ -11,7 +11,7 @@
 
 namespace trivela::evaluator {
 
-/// Where a kick of a story stands.
+/// Where a kick of a series stands.
 struct DriftKick {
   std::size_t log = 0;  ///< place among the logs
   std::int64_t session_id = 0;
@@ -27,7 +27,7 @@ struct RobotDrift {
   bool simulated = false;
   std::size_t sessions = 0;
   std::vector<DriftKick> kicks{};  ///< accepted ones, by time
-  DriftEstimate story{};           ///< places in it are of `kicks`
+  DriftEstimate timeline{};        ///< places in it are of `kicks`
 };
 
 struct DriftReport {

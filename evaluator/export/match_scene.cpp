@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "evaluator/mcap/ros_types.hpp"
-#include "evaluator/story/decided_segments.hpp"
+#include "evaluator/timeline/decided_segments.hpp"
 #include "kicking/constants.hpp"
 #include "log/schema/queries.hpp"
 

@@ -16,7 +16,7 @@ class PlayCount {
  public:
   explicit PlayCount(int part) : part_(part) {}
 
-  void hear(const RefereeLine& line) {
+  void receive(const RefereeLine& line) {
     if (line.command == BoxCommand::kStart) return start(line.t_ms);
     if (line.command == BoxCommand::kStop) return stop(line.t_ms);
     if (is_restart(line.command)) restart_ms_ = line.t_ms;
@@ -75,7 +75,7 @@ std::optional<double> PlayStatistics::stops_per_min() const {
 
 PlayStatistics play_statistics(const RefereeLog& log) {
   PlayCount count(first_part(log));
-  for (const RefereeLine& line : log.lines) count.hear(line);
+  for (const RefereeLine& line : log.lines) count.receive(line);
   return std::move(count).finish();
 }
 
@@ -112,7 +112,7 @@ std::vector<Possession> possessions(const TeamLog& log, const std::vector<std::i
     if (possession.to_ms - possession.from_ms >= kShortestPossession_ms) found.push_back(std::move(possession));
   };
   for (std::size_t i = 0; i < log.usable.size(); ++i) {
-    for (const ToldRobot& robot : log.usable[i].robots) {
+    for (const ReportedRobot& robot : log.usable[i].robots) {
       if (!robot.ball_engaged) continue;
       const auto place = open.try_emplace(robot.id, Possession{robot.id, times_ms[i], times_ms[i]}).first;
       if (times_ms[i] - place->second.to_ms >= kSamePossession_ms)

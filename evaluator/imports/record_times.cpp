@@ -25,20 +25,20 @@ double stamp_step_ms(const TeamRecord& before, const TeamRecord& record) {
 /// Game times with what is missing filled in, by record; `parts` is filled, too.
 std::vector<double> game_times_ms(const TeamLog& log, std::vector<Part>& parts) {
   std::vector<double> times_ms;
-  std::optional<double> told_ms;  // the latest that the box wrote
+  std::optional<double> reported_ms;  // the latest that the box wrote
   for (std::size_t i = 0; i < log.usable.size(); ++i) {
     const TeamRecord& record = log.usable[i];
-    const bool falls = record.game_ms && told_ms && *record.game_ms < *told_ms;
+    const bool falls = record.game_ms && reported_ms && *record.game_ms < *reported_ms;
     if (i == 0 || falls) {
       if (!parts.empty()) parts.back().to = i;
       parts.push_back({i, log.usable.size()});
       times_ms.push_back(record.game_ms.value_or(0.0));
     } else {
-      const bool moved = record.game_ms && (!told_ms || *record.game_ms > *told_ms);
+      const bool moved = record.game_ms && (!reported_ms || *record.game_ms > *reported_ms);
       const double by_stamp_ms = times_ms.back() + stamp_step_ms(log.usable[i - 1], record);
       times_ms.push_back(moved ? std::max(*record.game_ms, times_ms.back()) : by_stamp_ms);
     }
-    if (record.game_ms) told_ms = record.game_ms;
+    if (record.game_ms) reported_ms = record.game_ms;
   }
   return times_ms;
 }

@@ -13,7 +13,7 @@ namespace trivela::evaluator::imports {
 
 /// A robot as its team told the box. F: origin at the centre spot, +y to the opponents' goal, heading counter-clockwise
 /// from +y.
-struct ToldRobot {
+struct ReportedRobot {
   int id = 0;                                       ///< 0 to 255
   double x_m = 0.0, y_m = 0.0, heading_rad = 0.0;   ///< in F
   std::optional<std::array<double, 3>> velocity{};  ///< in F [m/s, m/s, rad/s]
@@ -21,7 +21,7 @@ struct ToldRobot {
 };
 
 /// The ball that a team trusts most.
-struct ToldBall {
+struct ReportedBall {
   double x_m = 0.0, y_m = 0.0;                      ///< in F
   std::optional<std::array<double, 2>> velocity{};  ///< in F, over ground [m/s]
 };
@@ -31,8 +31,8 @@ struct TeamRecord {
   std::int64_t number = 0;               ///< in the file, from 1
   std::optional<double> timestamp_ms{};  ///< UTC since 1970 less what the team said of its age
   std::optional<double> game_ms{};       ///< the box's clock of this part of the match
-  std::vector<ToldRobot> robots{};
-  std::optional<ToldBall> ball{};
+  std::vector<ReportedRobot> robots{};
+  std::optional<ReportedBall> ball{};
 };
 
 /// What a team sent upstream, as the box logged it.

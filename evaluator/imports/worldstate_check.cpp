@@ -6,10 +6,10 @@
 namespace trivela::evaluator::imports {
 namespace {
 
-constexpr double kFarthest_m = 50.0, kFastest_mps = 50.0;  // beyond: other units, or no measurement
-constexpr double kLatestTold_ms = 4'102'444'800'000.0;     // 2100, UTC
-constexpr double kOldest_ms = 10'000.0;                    // an age beyond it is time since something else
-constexpr std::int64_t kManyBatteries = 100;               // a voltage that is measured moves within so many
+constexpr double kFarthest_m = 50.0, kFastest_mps = 50.0;   // beyond: other units, or no measurement
+constexpr double kLatestReported_ms = 4'102'444'800'000.0;  // 2100, UTC
+constexpr double kOldest_ms = 10'000.0;                     // an age beyond it is time since something else
+constexpr std::int64_t kManyBatteries = 100;                // a voltage that is measured moves within so many
 
 bool within(const Numbers& numbers, std::size_t n, double most) {
   for (std::size_t i = 0; i < n; ++i)
@@ -39,7 +39,7 @@ void WorldstateCheck::record_value(const std::string& key, const Scalar& value) 
     if (log_.team.empty()) log_.team = value.text;
   } else if (key == "timestamp" || key == "gametimeMs") {
     if (!value.is_number()) return wrong_type(key, value.shown());
-    if (value.number < 0.0 || value.number > kLatestTold_ms)
+    if (value.number < 0.0 || value.number > kLatestReported_ms)
       return fault("time beyond all matches", key, value.shown());
     (key == "gametimeMs" ? record_.game_ms : record_.timestamp_ms) = value.number;
   } else if (key == "worldstate") {
@@ -176,12 +176,12 @@ void WorldstateCheck::end_robot() {
   check_battery(id);
   if (!part_.engaged) missing("ballEngaged");
   if (!placed) return;
-  ToldRobot robot{.id = id, .ball_engaged = part_.engaged.value_or(0.0) >= 0.5};
+  ReportedRobot robot{.id = id, .ball_engaged = part_.engaged.value_or(0.0) >= 0.5};
   robot.x_m = *part_.position->at[0];
   robot.y_m = *part_.position->at[1];
   robot.heading_rad = std::remainder(*part_.position->at[2], 2.0 * M_PI);
   if (velocity) robot.velocity = {*velocity->at[0], *velocity->at[1], *velocity->at[2]};
-  for (const ToldRobot& other : record_.robots) {
+  for (const ReportedRobot& other : record_.robots) {
     if (other.id == id) return fault("robot twice in a record", "id", id);
   }
   record_.robots.push_back(robot);

@@ -1,4 +1,4 @@
--- Kicks that the driver did not refuse, in the order of their time: what a list of them and the story of each begin with.
+-- Kicks that the driver did not refuse, in the order of their time: what a list of them and the timeline of each begin with.
 -- Columns: session_id, robot_id, kick_id, number (of the robot's orders in its own session), t_ns, utc_ns (of the
 -- decision), half, policy, distance_m, power, x_m, y_m, heading_rad, alpha_rad, target_x_m, target_y_m, aligned,
 -- offset_right_m, left_m, right_m, predicted_x_cross_m, predicted_z_cross_m, predicted_t_flight_s, fired_t_ns,

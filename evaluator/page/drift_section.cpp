@@ -20,8 +20,8 @@ class LinkedKicks {
   explicit LinkedKicks(const PageData& data) : kicks_(data.kicks) {
     if (data.binned()) return;
     for (std::size_t i = 0; i < kicks_.size(); ++i) {
-      const KickTimeline& story = kicks_[i].story;
-      places_[{kicks_[i].log, story.session_id, story.robot_id, story.kick_id}] = i;
+      const KickTimeline& timeline = kicks_[i].timeline;
+      places_[{kicks_[i].log, timeline.session_id, timeline.robot_id, timeline.kick_id}] = i;
     }
   }
 
@@ -29,9 +29,9 @@ class LinkedKicks {
   std::string link(int robot_id, const DriftKick& kick) const {
     const auto found = places_.find({kick.log, kick.session_id, robot_id, kick.kick_id});
     if (found == places_.end()) return fmt::format("kick_id {}", kick.kick_id);
-    const KickTimeline& story = kicks_[found->second].story;
-    return fmt::format("kick <a href=\"#k{}\">{}:{}</a> ({})", found->second, story.robot_id, story.number,
-                       html(instant_text(story)));
+    const KickTimeline& timeline = kicks_[found->second].timeline;
+    return fmt::format("kick <a href=\"#k{}\">{}:{}</a> ({})", found->second, timeline.robot_id, timeline.number,
+                       html(instant_text(timeline)));
   }
 
  private:
@@ -47,7 +47,7 @@ std::string kicker_head(const RobotDrift& robot) {
 
 std::string changed_items(const RobotDrift& robot, const LinkedKicks& places) {
   std::string text;
-  for (const Drift& drift : robot.story.drifts) {
+  for (const Drift& drift : robot.timeline.drifts) {
     text += fmt::format("<li>{}: changed at {}: {}; certain with {}. What to do: {}.</li>\n", kicker_head(robot),
                         places.link(robot.robot_id, robot.kicks[drift.changed]), html(words_of(drift)),
                         places.link(robot.robot_id, robot.kicks[drift.found]), html(correction_of(drift)));
@@ -58,7 +58,7 @@ std::string changed_items(const RobotDrift& robot, const LinkedKicks& places) {
 std::string unchanged_item(const RobotDrift& robot) {
   const DriftRule rule;
   const auto judged = static_cast<std::size_t>(rule.height.quiet);
-  const DriftLevel& level = robot.story.level;
+  const DriftLevel& level = robot.timeline.level;
   if (level.heights > judged)
     return fmt::format("<li>{}: no change found; {}</li>\n", kicker_head(robot), html(level_words(level)));
   return fmt::format(
@@ -79,7 +79,7 @@ std::string drift_section(const PageView& view) {
   std::size_t without = 0;
   for (const RobotDrift& robot : robots) {
     changed += changed_items(robot, places);
-    if (robot.story.drifts.empty() && ++without <= kMostUnchanged) same += unchanged_item(robot);
+    if (robot.timeline.drifts.empty() && ++without <= kMostUnchanged) same += unchanged_item(robot);
   }
   if (without > kMostUnchanged)
     same += fmt::format("<li>and {} more without a change</li>\n", without - kMostUnchanged);

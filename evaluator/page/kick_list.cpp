@@ -36,10 +36,10 @@ std::string choice(const std::string& key, const std::string& label, const std::
 std::string filter_form(const std::vector<PageKick>& kicks) {
   std::set<std::string> policies, robots, halves, outcomes, logs;
   for (const PageKick& kick : kicks) {
-    policies.insert(kick.story.policy);
-    robots.insert(std::to_string(kick.story.robot_id));
-    halves.insert(std::to_string(kick.story.half));
-    outcomes.insert(outcome_words(kick.story));
+    policies.insert(kick.timeline.policy);
+    robots.insert(std::to_string(kick.timeline.robot_id));
+    halves.insert(std::to_string(kick.timeline.half));
+    outcomes.insert(outcome_words(kick.timeline));
     logs.insert(std::to_string(kick.log + 1));
   }
   std::string form = "<form id=\"filter\" hidden aria-label=\"Filter of the list of kicks\">\n";
@@ -55,26 +55,26 @@ std::string filter_form(const std::vector<PageKick>& kicks) {
 std::string cell(const std::string& text) { return "<td>" + html(text) + "</td>"; }
 
 std::string row_of(std::size_t number, const PageKick& kick, bool several_logs, bool replays) {
-  const KickTimeline& story = kick.story;
+  const KickTimeline& timeline = kick.timeline;
   std::string row = fmt::format(
       "<tr id=\"k{}\" data-policy=\"{}\" data-robot=\"{}\" data-half=\"{}\" data-outcome=\"{}\" data-log=\"{}\" "
       "data-distance=\"{:.2f}\">",
-      number, html(story.policy), story.robot_id, story.half, html(outcome_words(story)), kick.log + 1,
-      story.distance_m);
-  row += fmt::format("<th scope=\"row\">{}:{}</th>", story.robot_id, story.number);
+      number, html(timeline.policy), timeline.robot_id, timeline.half, html(outcome_words(timeline)), kick.log + 1,
+      timeline.distance_m);
+  row += fmt::format("<th scope=\"row\">{}:{}</th>", timeline.robot_id, timeline.number);
   if (several_logs) row += cell(std::to_string(kick.log + 1));
-  row += cell(instant_text(story)) + cell(match_time_text(story)) + cell(story.policy);
-  row += cell(story.distance_m > 0.0 ? fmt::format("{:.2f}", story.distance_m) : "–");
-  row += cell((story.power ? fmt::format("{:.1f}", *story.power) : "–") +
-              (story.kick_kind > 0 ? fmt::format(", kind {}", story.kick_kind + 1) : ""));
-  row += cell(crossing_text(story.predicted)) + cell(crossing_text(story.observed));
-  row += fmt::format("<td class=\"outcome {}\">{}</td>", kOutcomeNames[static_cast<std::size_t>(kind_of(story))].key,
-                     html(outcome_words(story)));
+  row += cell(instant_text(timeline)) + cell(match_time_text(timeline)) + cell(timeline.policy);
+  row += cell(timeline.distance_m > 0.0 ? fmt::format("{:.2f}", timeline.distance_m) : "–");
+  row += cell((timeline.power ? fmt::format("{:.1f}", *timeline.power) : "–") +
+              (timeline.kick_kind > 0 ? fmt::format(", kind {}", timeline.kick_kind + 1) : ""));
+  row += cell(crossing_text(timeline.predicted)) + cell(crossing_text(timeline.observed));
+  row += fmt::format("<td class=\"outcome {}\">{}</td>", kOutcomeNames[static_cast<std::size_t>(kind_of(timeline))].key,
+                     html(outcome_words(timeline)));
   if (replays)
     row += fmt::format(
         "<td class=\"hand\"><button type=\"button\" data-replay=\"{}\" hidden aria-label=\"Replay kick "
         "{}:{}\">replay</button></td>",
-        number, story.robot_id, story.number);
+        number, timeline.robot_id, timeline.number);
   return row + "</tr>\n";
 }
 
@@ -93,19 +93,19 @@ std::string list(const std::vector<PageKick>& kicks, bool several_logs, bool rep
 
 }  // namespace
 
-std::string instant_text(const KickTimeline& story) {
-  if (story.utc_ns < kFirstUtc_ns) return fmt::format("{:+.2f} s", kicking::seconds(story.t_ns));
-  const std::time_t second = story.utc_ns / 1'000'000'000;
+std::string instant_text(const KickTimeline& timeline) {
+  if (timeline.utc_ns < kFirstUtc_ns) return fmt::format("{:+.2f} s", kicking::seconds(timeline.t_ns));
+  const std::time_t second = timeline.utc_ns / 1'000'000'000;
   std::tm utc{};
   if (gmtime_r(&second, &utc) == nullptr) return "–";
   return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02}.{:02}", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
-                     utc.tm_hour, utc.tm_min, utc.tm_sec, story.utc_ns / 10'000'000 % 100);
+                     utc.tm_hour, utc.tm_min, utc.tm_sec, timeline.utc_ns / 10'000'000 % 100);
 }
 
-std::string match_time_text(const KickTimeline& story) {
-  if (!story.half_time_s || !std::isfinite(*story.half_time_s)) return fmt::format("{}", story.half);
-  const auto tenths = std::llround(10.0 * std::clamp(*story.half_time_s, 0.0, 1e6));
-  return fmt::format("{}, {}:{:02}.{}", story.half, tenths / 600, tenths / 10 % 60, tenths % 10);
+std::string match_time_text(const KickTimeline& timeline) {
+  if (!timeline.half_time_s || !std::isfinite(*timeline.half_time_s)) return fmt::format("{}", timeline.half);
+  const auto tenths = std::llround(10.0 * std::clamp(*timeline.half_time_s, 0.0, 1e6));
+  return fmt::format("{}, {}:{:02}.{}", timeline.half, tenths / 600, tenths / 10 % 60, tenths % 10);
 }
 
 std::string kick_list_section(const PageView& view) {

@@ -6,7 +6,7 @@
   const form = byId('filter');
   const rows = [...document.querySelectorAll('#kicks tbody tr')];
   const stage = byId('replay-stage');
-  let stories = null;
+  let timelines = null;
   let shown = null;  // {player, number, from}
 
   // --- filter
@@ -47,9 +47,9 @@
 
   // --- replay
 
-  function words(story) {
-    const at = story.utc_ms > 1e12 ? new Date(story.utc_ms).toISOString().replace('T', ' ').replace('Z', ' UTC') : '';
-    return [`Kick ${story.kick}`, story.policy, `half ${story.half}`, at].filter((text) => text).join(', ');
+  function words(timeline) {
+    const at = timeline.utc_ms > 1e12 ? new Date(timeline.utc_ms).toISOString().replace('T', ' ').replace('Z', ' UTC') : '';
+    return [`Kick ${timeline.kick}`, timeline.policy, `half ${timeline.half}`, at].filter((text) => text).join(', ');
   }
 
   function close() {
@@ -63,13 +63,13 @@
   }
 
   function open(number, from) {
-    stories ??= JSON.parse(byId('stories').textContent);
-    const story = stories[number];
-    if (!story) return;
+    timelines ??= JSON.parse(byId('timelines').textContent);
+    const timeline = timelines[number];
+    if (!timeline) return;
     if (shown) shown.player.remove();
     byId('replay').hidden = false;
-    byId('replay-words').textContent = words(story);
-    shown = {player: replay(stage, story), number, from};
+    byId('replay-words').textContent = words(timeline);
+    shown = {player: replay(stage, timeline), number, from};
     for (const row of rows) row.classList.toggle('chosen', row.id === `k${number}`);
     remember();
     byId('replay').scrollIntoView({block: 'nearest'});

@@ -174,7 +174,7 @@ void compare(const LoggedOpportunities& logged, PageData& data) {
 }
 
 void read_kicks(const log::Reader& reader, std::size_t log, PageData& data) {
-  for (KickTimeline& story : kicks_without_tracks(reader)) data.kicks.push_back({log, std::move(story)});
+  for (KickTimeline& timeline : kicks_without_tracks(reader)) data.kicks.push_back({log, std::move(timeline)});
 }
 
 void read_predictions(const log::Reader& reader, PageData& data) {
@@ -239,13 +239,13 @@ void read_changes(const std::vector<fs::path>& logs, const std::vector<OpenLog>&
 /// The times of the halves, of so many kicks that they are listed.
 void read_half_times(const std::vector<OpenLog>& readers, PageData& data) {
   if (data.binned()) return;
-  for (PageKick& kick : data.kicks) add_half_time(*readers[kick.log].reader, kick.story);
+  for (PageKick& kick : data.kicks) add_half_time(*readers[kick.log].reader, kick.timeline);
 }
 
 /// The paths of robots and balls, of so many kicks that they fit a page.
 void read_tracks(const std::vector<OpenLog>& readers, PageData& data) {
   if (data.kicks.size() > kMostReplays) return;
-  for (PageKick& kick : data.kicks) add_tracks(*readers[kick.log].reader, kick.story);
+  for (PageKick& kick : data.kicks) add_tracks(*readers[kick.log].reader, kick.timeline);
 }
 
 /// Shadows by name, each once; kicks by time.
@@ -253,7 +253,7 @@ void sort_all(PageData& data) {
   std::ranges::sort(data.shadows);
   data.shadows.erase(std::unique(data.shadows.begin(), data.shadows.end()), data.shadows.end());
   std::ranges::stable_sort(data.kicks, {}, [](const PageKick& kick) {
-    return std::tuple(kick.story.utc_ns, kick.story.session_id, kick.story.robot_id, kick.story.kick_id);
+    return std::tuple(kick.timeline.utc_ns, kick.timeline.session_id, kick.timeline.robot_id, kick.timeline.kick_id);
   });
 }
 

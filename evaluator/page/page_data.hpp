@@ -12,9 +12,9 @@
 #include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/counting/log_opportunities.hpp"
 #include "evaluator/drift_report/log_drift.hpp"
-#include "evaluator/story/decided_again.hpp"
-#include "evaluator/story/kick_timeline.hpp"
 #include "evaluator/table2/table2.hpp"
+#include "evaluator/timeline/decided_again.hpp"
+#include "evaluator/timeline/kick_timeline.hpp"
 
 namespace trivela::evaluator::page {
 
@@ -32,7 +32,7 @@ struct PageLog {
 /// A kick, and which log it is from.
 struct PageKick {
   std::size_t log = 0;
-  KickTimeline story;
+  KickTimeline timeline;
 };
 
 /// A possession in which nobody kicked, where the robot last held.

@@ -32,10 +32,10 @@ struct HeightError {
 std::vector<HeightError> height_errors(const PageView& view) {
   std::vector<HeightError> errors;
   for (const PageKick& kick : view.data.kicks) {
-    const KickTimeline& story = kick.story;
-    const bool seen = story.predicted && story.predicted->z_m && story.observed && story.observed->z_m;
-    if (!seen || !story.power || *story.predicted->z_m < kFree_m || story.bounced.value_or(false)) continue;
-    errors.push_back({story.robot_id, *story.power, *story.observed->z_m - *story.predicted->z_m});
+    const KickTimeline& timeline = kick.timeline;
+    const bool seen = timeline.predicted && timeline.predicted->z_m && timeline.observed && timeline.observed->z_m;
+    if (!seen || !timeline.power || *timeline.predicted->z_m < kFree_m || timeline.bounced.value_or(false)) continue;
+    errors.push_back({timeline.robot_id, *timeline.power, *timeline.observed->z_m - *timeline.predicted->z_m});
   }
   return errors;
 }

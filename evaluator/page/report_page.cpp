@@ -9,8 +9,8 @@
 #include "evaluator/page/page.js.hpp"
 #include "evaluator/render/simulated.hpp"
 #include "evaluator/render/text_table.hpp"
-#include "evaluator/story/decided_again.hpp"
-#include "evaluator/story/replay.hpp"
+#include "evaluator/timeline/decided_again.hpp"
+#include "evaluator/timeline/replay.hpp"
 
 namespace trivela::evaluator::page {
 namespace {
@@ -76,11 +76,12 @@ std::string contents(const PageData& data) {
   return text + "</ul></nav>\n";
 }
 
-/// The stories, by their place in the list.
-std::string stories(const PageData& data) {
+/// The timeline, by their place in the list.
+std::string timelines(const PageData& data) {
   if (data.kicks.size() > kMostReplays) return "[]";
   std::string text = "[";
-  for (const PageKick& kick : data.kicks) text += (text.size() > 1 ? ",\n" : "\n") + script_json(json_of(kick.story));
+  for (const PageKick& kick : data.kicks)
+    text += (text.size() > 1 ? ",\n" : "\n") + script_json(json_of(kick.timeline));
   return text + "\n]";
 }
 
@@ -110,7 +111,7 @@ std::string to_html(const Report& report, const PageData& data) {
           "</header>\n<main>\n";
   for (const PagePart& part : kParts)
     if (part.is_there(data)) page += guarded(part, view);
-  page += "</main>\n<script type=\"application/json\" id=\"stories\">" + stories(data) + "</script>\n";
+  page += "</main>\n<script type=\"application/json\" id=\"timelines\">" + timelines(data) + "</script>\n";
   return page + "<script>" + script + "</script>\n</body>\n</html>\n";
 }
 

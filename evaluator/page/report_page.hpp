@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "evaluator/page/page_data.hpp"
-#include "evaluator/story/kick_timeline.hpp"
 #include "evaluator/table2/report_parts.hpp"
 #include "evaluator/table2/table2.hpp"
+#include "evaluator/timeline/kick_timeline.hpp"
 
 namespace trivela::evaluator::page {
 
@@ -53,10 +53,10 @@ std::string quality_section(const PageView& view);
 std::size_t colour_of(const PageView& view, const std::string& policy);
 
 /// "2026-11-24 08:47:31.12" in UTC; "+73.20 s" of the session's clock where that is a simulator's.
-std::string instant_text(const KickTimeline& story);
+std::string instant_text(const KickTimeline& timeline);
 
 /// "2, 3:04.5": half, minutes and seconds since its first start of play; "2" where nobody said the time.
-std::string match_time_text(const KickTimeline& story);
+std::string match_time_text(const KickTimeline& timeline);
 
 /// The page as one HTML file that asks for nothing from anywhere: its content-security policy allows its own script and
 /// style by their hashes and no request. The same text for the same data.

@@ -70,7 +70,7 @@ double LearnedKicker::mean_chi_square() const {
   return n > 0 ? sum / static_cast<double>(n) : 0.0;
 }
 
-bool LearnedKicker::sound() const {
+bool LearnedKicker::valid() const {
   return kicks() - mistaken() >= kFewestFlights && mean_chi_square() < kFarthestSquares * kResiduals &&
          2 * mistaken() < kicks();
 }
@@ -96,7 +96,7 @@ std::vector<std::string> LearnedKicker::sentences() const {
              : "decisions did not go by what its kicks show; self_calibration.mode = \"on\" would have moved " + by);
   }
   const LearnedPart& speed = steps.back().speed_ln;
-  if (!used && sound() && std::abs(speed.value) > std::max(kWrongSpeed, 3.0 * speed.se))
+  if (!used && valid() && std::abs(speed.value) > std::max(kWrongSpeed, 3.0 * speed.se))
     say(
         fmt::format("warning: the ball is {:.0f} % {} than its file says: trivela calibrate from-log, or "
                     "self_calibration.mode = \"on\"",
@@ -107,7 +107,7 @@ std::vector<std::string> LearnedKicker::sentences() const {
     say(fmt::format("{} to say whether this may be believed", flights == 1
                                                                   ? std::string{"1 flight is too few"}
                                                                   : fmt::format("{} flights are too few", flights)));
-  } else if (sound()) {
+  } else if (valid()) {
     say(fmt::format(
         "its last flights lie as far from it as it says (mean chi-square {:.1f}, expected {:.0f}): it may be believed",
         mean_chi_square(), kResiduals));

@@ -39,7 +39,7 @@ struct LearnedKicker {
   std::int64_t mistaken() const;
   double mean_chi_square() const;  ///< of the last 30 flights; 4 where the estimate knows how good it is
   /// Its flights lie about as far from it as it says: it may be believed. False also for fewer than five kicks.
-  bool sound() const;
+  bool valid() const;
   std::optional<double> higher_m() const;  ///< mean over the kicks
   /// What decisions did or would have done with it, and whether it may be believed.
   std::vector<std::string> sentences() const;

@@ -57,11 +57,11 @@ void each_stretch(const log::Reader& reader, bool halves, const auto& fn) {
       "max(last_t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END ";
   reader.query(halves ? "SELECT p.session_id, p.half" + columns +
                             "FROM (SELECT DISTINCT session_id, half FROM session_policies) AS p JOIN sessions AS s "
-                            "USING (session_id) LEFT JOIN heard_halves AS r ON r.session_id = p.session_id "
+                            "USING (session_id) LEFT JOIN recorded_halves AS r ON r.session_id = p.session_id "
                             "AND r.half = p.half WHERE planned_s IS NOT NULL AND replays_uuid IS NULL "
                             "GROUP BY p.session_id, p.half"
                       : "SELECT s.session_id, 0" + columns +
-                            "FROM sessions AS s LEFT JOIN heard_halves AS r ON r.session_id = s.session_id "
+                            "FROM sessions AS s LEFT JOIN recorded_halves AS r ON r.session_id = s.session_id "
                             "WHERE planned_s IS NOT NULL GROUP BY s.session_id ORDER BY s.started_t_ns, s.session_id",
                [&](std::int64_t session_id, int half, double planned_s, std::optional<std::int64_t> from_ns,
                    std::optional<std::int64_t> to_ns) {
@@ -120,7 +120,7 @@ std::vector<PlayedLength> played_lengths(std::span<const log::Reader* const> log
   for (const ComparedSession& session : sessions) play_of[session.session_id] = session.play;
   std::map<std::uint32_t, std::size_t> places;  // of the plays
   std::vector<PlayedLength> lengths;
-  std::vector<std::vector<Stretch>> heard;
+  std::vector<std::vector<Stretch>> received;
   // The halves that a session says who was in charge of are those that were planned; a replay's are as long as they
   // were.
   std::map<std::pair<std::size_t, int>, std::vector<Stretch>> halves;  // by place of the length
@@ -129,18 +129,18 @@ std::vector<PlayedLength> played_lengths(std::span<const log::Reader* const> log
       const auto [place, first] = places.try_emplace(play_of.at(session_id), lengths.size());
       if (first) {
         lengths.push_back({.session_id = session_id});
-        heard.emplace_back();
+        received.emplace_back();
       }
       PlayedLength& length = lengths[place->second];
       length.planned_s = std::max(length.planned_s, planned_s);
-      if (stretch) heard[place->second].push_back(*stretch);
+      if (stretch) received[place->second].push_back(*stretch);
     });
     each_stretch(*reader, true, [&](std::int64_t session_id, int half, double, const auto& stretch) {
       std::vector<Stretch>& stretches = halves[{places.at(play_of.at(session_id)), half}];
       if (stretch) stretches.push_back(*stretch);
     });
   }
-  for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i].recorded_s = covered_s(std::move(heard[i]));
+  for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i].recorded_s = covered_s(std::move(received[i]));
   std::map<std::size_t, double> planned_halves;
   for (const auto& [key, stretches] : halves) planned_halves[key.first] += 1.0;
   for (auto& [key, stretches] : halves) {

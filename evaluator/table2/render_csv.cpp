@@ -44,7 +44,7 @@ std::string csv_row_line(const PolicyRow& row, const std::string& robot_id, cons
                     csv_cell(row.kicks_per_min())};
   for (const std::string& miss : kMisses) cells.push_back(csv_cell(row.of(miss)));
   for (const char* label : {"outside", kNoGoals[0].label, kNoGoals[1].label}) cells.push_back(csv_cell(row.of(label)));
-  for (const SaidOfInside& said : {row.inside_kicks.bounced, row.inside_kicks.saved})
+  for (const ReportsOfInside& said : {row.inside_kicks.bounced, row.inside_kicks.saved})
     for (const std::int64_t n : {said.observed_yes, said.observed, said.truth_yes, said.truth})
       cells.push_back(csv_cell(n));
   cells.push_back(csv_cell(row.goals()));

@@ -97,7 +97,7 @@ Json kicker_json(const LearnedKicker& kicker) {
           {"kicks", kicker.kicks()},
           {"mistaken", kicker.mistaken()},
           {"mean_chi_square", kicker.mean_chi_square()},
-          {"sound", kicker.sound()},
+          {"sound", kicker.valid()},
           {"higher_m", json_of(kicker.higher_m())},
           {"speed_ln", part(last.speed_ln)},
           {"elevation_rad", part(last.elevation_rad)},

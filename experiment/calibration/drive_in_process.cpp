@@ -8,7 +8,7 @@
 #include "experiment/play/play_match.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/lob/analyzer.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 #include "sim/laser/field_laser.hpp"
 
 namespace trivela::experiment {
@@ -16,8 +16,8 @@ namespace {
 
 template <class Message>
 log::RecordedOutcome crossing_of(const Message& message) {
-  return {std::string{bus::label(message.outcome)}, kicking::Maybe{message.x_cross_m},
-          kicking::Maybe{message.z_cross_m}};
+  return {std::string{bus::label(message.outcome)}, kicking::OptionalDouble{message.x_cross_m},
+          kicking::OptionalDouble{message.z_cross_m}};
 }
 
 /// The last message of a kick.

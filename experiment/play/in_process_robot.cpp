@@ -30,7 +30,7 @@ InProcessRobot::InProcessRobot(const config::Settings& settings, const config::R
       decider_({settings.kick_decision, settings.policy, settings.goal}, robot_.model, robot_id, session,
                std::move(oracle)),
       model_(settings.world_state, robot.model.ball_offset_m, decider_.reads_opponents()),
-      desk_(settings.kicker_driver, settings.run.cycle_s, robot.model, robot_id, robot::DecisionNode::kThere),
+      controller_(settings.kicker_driver, settings.run.cycle_s, robot.model, robot_id, robot::DecisionNode::kThere),
       arbiter_(settings.kick_decision.drive, settings.odometry) {}
 
 const robot::CycleDecision* InProcessRobot::cycle(const sim::Sensors& sensors, const msg::Referee& referee,
@@ -41,18 +41,18 @@ const robot::CycleDecision* InProcessRobot::cycle(const sim::Sensors& sensors, c
   const msg::VisionFrame frame = hal::vision_message(sensors.t_ns, sensors.vision);
   const auto odometry = odometry_.update(wheel_sample(sensors));
   if (!odometry) return nullptr;
-  const auto says = referee.playing ? robot::RefereeSays::kPlay : robot::RefereeSays::kStop;
-  kicking::make_in_place(status_, [&] { return desk_.status(kicker, says, sensors.t_ns); });
+  const auto says = referee.playing ? robot::RefereePermission::kPlay : robot::RefereePermission::kStop;
+  kicking::make_in_place(status_, [&] { return controller_.status(kicker, says, sensors.t_ns); });
   kicking::make_in_place(world_, [&] { return model_.update(*odometry, &frame, &referee, &status_); });
   world_.robot_id = robot_id_;
   std::optional<kicking::PolicyInput> told;
   if (truth != nullptr)
     told = oracle_input(*truth, sensors.t_ns, referee.playing, referee.possession_id, status_.ready);
-  decider_.hear(referee);
+  decider_.receive(referee);
   const robot::CycleDecision& decision = decider_.decide(world_, &status_, outcome, told ? &*told : nullptr);
   decider_.commit();
-  if (decision.order) receipt_ = desk_.answer(*decision.order, sensors.t_ns, robot::OrderBy::kOwnDecision);
-  arbiter_.hear(msg::DRIVE_KICK_DECISION, sensors.t_ns, decision.output.drive, sensors.t_ns);
+  if (decision.order) receipt_ = controller_.answer(*decision.order, sensors.t_ns, robot::OrderBy::kOwnDecision);
+  arbiter_.receive(msg::DRIVE_KICK_DECISION, sensors.t_ns, decision.output.drive, sensors.t_ns);
   kicking::make_in_place(drive_, [&] { return arbiter_.decide(sensors.t_ns, {world_.playing, world_.possession}); });
   return &decision;
 }

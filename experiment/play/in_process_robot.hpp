@@ -25,7 +25,7 @@ class InProcessRobot {
   InProcessRobot& operator=(const InProcessRobot&) = delete;
 
   /// The referee's word before the first cycle, as a robot hears it that has no ball.
-  void hear(const msg::Referee& word) { model_.hear(word); }
+  void receive(const msg::Referee& word) { model_.receive(word); }
 
   /// What its kicker is by its kicks, from the next cycle on.
   void learn(const msg::KickerEstimate& estimate) { decider_.learn(estimate); }
@@ -55,7 +55,7 @@ class InProcessRobot {
   robot::WheelOdometry odometry_;
   robot::Decider decider_;
   robot::WorldModel model_;
-  robot::KickerController desk_;
+  robot::KickerController controller_;
   robot::DriveArbiter arbiter_;
   robot::ObeyedDrive drive_;
   msg::WorldState world_{};

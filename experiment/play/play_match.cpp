@@ -75,7 +75,7 @@ class Game {
     if (options_.watch) options_.watch(sensors);
     ++played_.cycles;
     played_.end_t_ns = sensors.t_ns;
-    const msg::Referee referee = hear(sensors);
+    const msg::Referee referee = receive(sensors);
     if (follows) observe(sensors, referee);
     sim::Commands commands;
     InProcessRobot& chain = chain_of(robot_id_);
@@ -108,7 +108,7 @@ class Game {
 
   /// The referee's word, as everybody hears it. A new possession begins where the simulator counts one: what is paired
   /// goes by the truth's count, what a robot draws by its own.
-  msg::Referee hear(const sim::Sensors& sensors) {
+  msg::Referee receive(const sim::Sensors& sensors) {
     msg::Referee word = hal::referee_message(sensors.t_ns, sensors.referee);
     robot_id_ = sensors.carrier;
     word.robot_id = 1;  // the whole team receives it
@@ -156,8 +156,8 @@ class Game {
     if (!receipt.accepted) return std::nullopt;
     for (const msg::KickOutcome& outcome : observer_.receipt(receipt, chain.robot().model)) take(outcome);
     if (auto& learning = player_of(robot_id_).learning) {
-      learning->hear(chain.record());
-      learning->hear(receipt);
+      learning->receive(chain.record());
+      learning->receive(receipt);
     }
     const kicking::PolicyOutput& output = decision.output;
     const msg::WorldState& world = chain.world();
@@ -236,7 +236,7 @@ class Game {
     players_[index].reset(new Player{.chain{settings_, robot, robot_id, session_, seat(robot_id, robot.model.kinds())},
                                      .learning = std::nullopt});
     Player& player = *players_[index];
-    player.chain.hear(*first_word_);
+    player.chain.receive(*first_word_);
     if (settings_.self_calibration.mode == config::SelfCalibrationMode::kOff) return player;
     player.learning.emplace(settings_.self_calibration, player.chain.robot().model, robot_id);
     const msg::KickerEstimate& first = player.learning->first();

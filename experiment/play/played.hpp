@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "idl/messages.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 #include "kicking/outcome/outcome.hpp"
 #include "kicking/policy/policy.hpp"
 #include "sim/truth.hpp"
@@ -18,11 +18,11 @@ struct PlayedKick {
   double vx_mps = 0.0;      ///< twist in R
   double vy_mps = 0.0;
   double omega_radps = 0.0;
-  kicking::Maybe opponent_distance_m;  ///< of the nearest opponent from the ball
+  kicking::OptionalDouble opponent_distance_m;  ///< of the nearest opponent from the ball
   double power = 0.0;
   std::uint8_t kind = 0;  ///< of the robot's kinds of kick
   double v_kick_mps = 0.0;
-  kicking::Maybe p_on_target;                              ///< predicted
+  kicking::OptionalDouble p_on_target;                     ///< predicted
   std::optional<kicking::PredictedCrossing> predicted;     ///< crossing of the goal line
   kicking::Outcome observed = kicking::Outcome::kUnknown;  ///< by the shot observer
   std::optional<kicking::Outcome> truth;                   ///< of the simulator; none: the ball never left

@@ -60,8 +60,8 @@ bool same_decision(const msg::KickDecision& a, const msg::KickDecision& b) {
 
 /// Tries every one of `candidates` on a copy of the logic, until one is at no distance from what was recorded; keeps
 /// what came nearest. Without a record the first one counts. Returns its place.
-template <class Candidate, class Said, class Try, class Recorded>
-std::size_t nearest(std::unique_ptr<RobotLogic>& logic, const std::vector<Candidate>& candidates, Said& said,
+template <class Candidate, class Reported, class Try, class Recorded>
+std::size_t nearest(std::unique_ptr<RobotLogic>& logic, const std::vector<Candidate>& candidates, Reported& said,
                     const std::optional<Recorded>& recorded, Try&& try_one) {
   double least = std::numeric_limits<double>::infinity();
   std::size_t best = 0;

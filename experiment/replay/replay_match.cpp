@@ -14,7 +14,7 @@
 #include "experiment/replay/robot_logic.hpp"
 #include "hal/wheels.hpp"
 #include "kicking/geometry/time.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 #include "log/write/writer.hpp"
 #include "robot/odometry/wheel_odometry.hpp"
 #include "robot/recording/message_row.hpp"
@@ -128,7 +128,7 @@ std::uint32_t kick_session(const RecordedRobot& robot) {
 hal::WheelSample wheel_sample(const msg::Odometry& odometry) {
   hal::WheelSample sample{
       .t_ns = odometry.t_ns, .wheel_count = 0, .wheel_radps = {}, .gyro_radps = odometry.gyro_radps};
-  for (const kicking::Maybe speed_radps :
+  for (const kicking::OptionalDouble speed_radps :
        {odometry.wheel_0_radps, odometry.wheel_1_radps, odometry.wheel_2_radps, odometry.wheel_3_radps}) {
     if (!speed_radps) break;
     sample.wheel_radps[static_cast<std::size_t>(sample.wheel_count++)] = *speed_radps;

@@ -43,7 +43,7 @@ LogicDecision RobotLogic::decide(const msg::WorldState& world, const DecisionInp
   }
   if (learns_ && inputs.estimate != nullptr && decider_.is_news(*inputs.estimate, world.t_ns))
     decider_.learn(*inputs.estimate);
-  if (set_pieces_ && inputs.referee != nullptr) decider_.hear(*inputs.referee);
+  if (set_pieces_ && inputs.referee != nullptr) decider_.receive(*inputs.referee);
   const robot::CycleDecision& decision =
       decider_.decide(world, kicker ? &*kicker : nullptr, outcome, nullptr, inputs.late ? kOld_s : 0.0);
   decider_.commit();

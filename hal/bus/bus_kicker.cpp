@@ -10,7 +10,7 @@
 #include "hal/bus/bus_streams.hpp"
 #include "hal/open.hpp"
 #include "idl/none.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::hal {
 namespace {
@@ -49,7 +49,7 @@ std::optional<KickerSample> BusKicker::read(std::chrono::nanoseconds timeout) {
   const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout, see);
   if (!received) return std::nullopt;
   contested_ = bridges_.contested(now_ns());
-  const kicking::Maybe voltage_v = received->voltage_v;
+  const kicking::OptionalDouble voltage_v = received->voltage_v;
   capabilities_ = {.charge_control = received->charge_control,
                    .voltage = voltage_v.has_value(),
                    .discharge = received->discharge,

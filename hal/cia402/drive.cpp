@@ -56,7 +56,7 @@ void Drive::go_on(StartUp::Progress progress, std::int64_t now_ns, Frames& out) 
       out.push_back(nmt(Nmt::kStart, node_));
       stage_ = Stage::kRunning;
       scale_ = start_up_->scale();
-      running_ns_ = beat_ns_ = asked_ns_ = now_ns;
+      running_ns_ = heartbeat_ns_ = asked_ns_ = now_ns;
       state_ = DriveState::kUnknown;
       controlword_ = 0;
       answered_ = asked_ = false;
@@ -89,7 +89,7 @@ void Drive::take(const can::Frame& frame, std::int64_t now_ns, Frames& out) {
 
 void Drive::take_heartbeat(NodeState state, std::int64_t now_ns, Frames& out) {
   if (state == NodeState::kBootUp) return lose("it has restarted by itself", now_ns, out);
-  beat_ns_ = now_ns;
+  heartbeat_ns_ = now_ns;
   if (state != NodeState::kOperational && now_ns - running_ns_ > kSettle_ns)
     lose("it is not operational any more", now_ns, out);
 }
@@ -111,7 +111,7 @@ void Drive::step(std::int64_t now_ns, Frames& out) {
   if (stage_ == Stage::kStarting && now_ns >= due_ns_) go_on(start_up_->timed_out(), now_ns, out);
   if (stage_ == Stage::kPaused && now_ns >= due_ns_) start(now_ns, out);
   if (stage_ != Stage::kRunning) return;
-  if (now_ns - beat_ns_ >= silence_ns_)
+  if (now_ns - heartbeat_ns_ >= silence_ns_)
     return lose(fmt::format("no heartbeat for {:g} s", kicking::seconds(silence_ns_)), now_ns, out);
   if (asked_ && now_ns - asked_ns_ >= silence_ns_)
     lose(fmt::format("no answer to SYNC for {:g} s", kicking::seconds(silence_ns_)), now_ns, out);
@@ -120,7 +120,7 @@ void Drive::step(std::int64_t now_ns, Frames& out) {
 std::int64_t Drive::next_ns() const {
   if (stage_ == Stage::kClosed) return std::numeric_limits<std::int64_t>::max();
   if (stage_ != Stage::kRunning) return due_ns_;
-  return (asked_ ? std::min(beat_ns_, asked_ns_) : beat_ns_) + silence_ns_;
+  return (asked_ ? std::min(heartbeat_ns_, asked_ns_) : heartbeat_ns_) + silence_ns_;
 }
 
 void Drive::lose(const std::string& why, std::int64_t now_ns, Frames& out) {

@@ -40,7 +40,7 @@ class Drive {
   /// It turns as it is told.
   bool enabled() const { return running() && state_ == DriveState::kEnabled; }
   /// It has said in which state it is.
-  bool heard() const { return running() && state_ != DriveState::kUnknown; }
+  bool received() const { return running() && state_ != DriveState::kUnknown; }
 
   /// Revolutions a minute of the motor at this speed of the wheel, counter-clockwise about the robot's centre.
   double motor_rpm(double wheel_radps) const;
@@ -82,7 +82,7 @@ class Drive {
   Stage stage_ = Stage::kClosed;
   std::int64_t due_ns_ = 0;      // starting: of the answer; paused: of the next start
   std::int64_t running_ns_ = 0;  // since then
-  std::int64_t beat_ns_ = 0;
+  std::int64_t heartbeat_ns_ = 0;
   std::int64_t asked_ns_ = 0;  // of the first SYNC that it has not answered, if `asked_`
   DriveState state_ = DriveState::kUnknown;
   std::uint16_t controlword_ = 0;

@@ -58,8 +58,8 @@ void Drives::step(std::int64_t now_ns) {
   if (open_) receive(now_ns);
   if (!open_) return;
   for (Drive& drive : drives_) drive.step(now_ns, out_);
-  if (now_ns >= next_beat_ns_) {
-    next_beat_ns_ = now_ns + kBeat_ns;
+  if (now_ns >= next_heartbeat_ns_) {
+    next_heartbeat_ns_ = now_ns + kHeartbeat_ns;
     if (use_ == WheelsUse::kDrive) out_.push_back(heartbeat(settings_.master, NodeState::kOperational));
   }
   if (running() && now_ns >= next_cycle_ns_) cycle(now_ns);
@@ -70,7 +70,7 @@ void Drives::step(std::int64_t now_ns) {
 std::int64_t Drives::next_ns() const {
   if (stopped_) return std::numeric_limits<std::int64_t>::max();
   if (!open_) return next_open_ns_;
-  std::int64_t next_ns = next_beat_ns_;
+  std::int64_t next_ns = next_heartbeat_ns_;
   for (const Drive& drive : drives_) next_ns = std::min(next_ns, drive.next_ns());
   return running() ? std::min(next_ns, next_cycle_ns_) : next_ns;
 }
@@ -78,7 +78,7 @@ std::int64_t Drives::next_ns() const {
 bool Drives::running() const { return std::ranges::any_of(drives_, &Drive::running); }
 
 bool Drives::up() const {
-  return open_ && std::ranges::all_of(drives_, use_ == WheelsUse::kDrive ? &Drive::enabled : &Drive::heard);
+  return open_ && std::ranges::all_of(drives_, use_ == WheelsUse::kDrive ? &Drive::enabled : &Drive::received);
 }
 
 void Drives::open(std::int64_t now_ns) {
@@ -86,7 +86,7 @@ void Drives::open(std::int64_t now_ns) {
     return lose(fmt::format("no bus {}: {}", bus_->name(), bus_->why()), now_ns);
   open_ = true;
   problem_.clear();
-  next_beat_ns_ = next_cycle_ns_ = now_ns;
+  next_heartbeat_ns_ = next_cycle_ns_ = now_ns;
   for (Drive& drive : drives_) drive.open(now_ns, out_);
 }
 

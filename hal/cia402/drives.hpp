@@ -16,15 +16,15 @@
 
 namespace trivela::hal::cia402 {
 
-/// The drives of a base on their CAN bus, of which this is the master: a heartbeat every kBeat_ns, and every cycle SYNC
-/// and each drive's command, whose answers are one sample of SYNC's instant. The wheels turn while every drive is in
-/// operation; if one is not, the others are told to stand, and a set-point from before counts no more when all are
+/// The drives of a base on their CAN bus, of which this is the master: a heartbeat every kHeartbeat_ns, and every cycle
+/// SYNC and each drive's command, whose answers are one sample of SYNC's instant. The wheels turn while every drive is
+/// in operation; if one is not, the others are told to stand, and a set-point from before counts no more when all are
 /// again. The bus is opened again after a pause where it is lost.
 ///
 /// Drives that are listened to hear SYNC alone: no heartbeat, which they would miss afterwards, no command and no stop.
 class Drives final : public LineClient {
  public:
-  static constexpr std::int64_t kBeat_ns = 50'000'000;
+  static constexpr std::int64_t kHeartbeat_ns = 50'000'000;
 
   /// Throws std::runtime_error naming what does not go together: the number of drives and of wheels, nodes that are
   /// there twice.
@@ -75,7 +75,7 @@ class Drives final : public LineClient {
   bool open_ = false;
   bool stopped_ = false;
   std::int64_t next_open_ns_ = 0;
-  std::int64_t next_beat_ns_ = 0;
+  std::int64_t next_heartbeat_ns_ = 0;
   std::int64_t next_cycle_ns_ = 0;
   std::optional<std::int64_t> sync_ns_;  // its answers are not complete yet
   std::optional<WheelSample> sample_;

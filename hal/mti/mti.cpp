@@ -24,7 +24,7 @@ Mti::Mti(std::unique_ptr<Line> line, const config::MtiDevice& settings)
 void Mti::step(std::int64_t now_ns) {
   if (!open_ && now_ns >= next_open_ns_) open(now_ns);
   if (open_) receive(now_ns);
-  if (open_ && now_ns - heard_ns_ >= kSilence_ns) lose(why_without_samples(), now_ns);
+  if (open_ && now_ns - received_ns_ >= kSilence_ns) lose(why_without_samples(), now_ns);
 }
 
 std::string Mti::why_without_samples() const {
@@ -37,13 +37,13 @@ std::string Mti::why_without_samples() const {
                      line_->name(), kicking::seconds(kSilence_ns));
 }
 
-std::int64_t Mti::next_ns() const { return open_ ? heard_ns_ + kSilence_ns : next_open_ns_; }
+std::int64_t Mti::next_ns() const { return open_ ? received_ns_ + kSilence_ns : next_open_ns_; }
 
 void Mti::open(std::int64_t now_ns) {
   if (line_->open(kWithoutWaiting) != Line::Opening::kOpen)
     return lose(fmt::format("no gyro at {}: {}", line_->name(), line_->why()), now_ns);
   open_ = true;
-  heard_ns_ = now_ns;
+  received_ns_ = now_ns;
   parser_ = {};
   other_message_.reset();
   clock_.emplace(Reading::kTick_ns, kClockBits, 0);
@@ -63,7 +63,7 @@ void Mti::receive(std::int64_t now_ns) {
 }
 
 void Mti::take(const Reading& reading, std::int64_t now_ns) {
-  heard_ns_ = now_ns;
+  received_ns_ = now_ns;
   const std::int64_t t_ns = reading.sample_time ? clock_->add(*reading.sample_time, now_ns).t_ns : now_ns;
   if (!reading.rate_radps) {
     status_ = fmt::format("{}: {}", line_->name(),

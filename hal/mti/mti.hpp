@@ -41,7 +41,7 @@ class Mti final : public LineClient {
   double sign_;
   bool open_ = false;
   std::int64_t next_open_ns_ = 0;
-  std::int64_t heard_ns_ = 0;
+  std::int64_t received_ns_ = 0;
   MessageParser parser_;
   std::optional<std::uint8_t> other_message_;  // since the line was opened, one that is no measurement
   std::optional<DeviceClock> clock_;

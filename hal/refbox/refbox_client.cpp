@@ -25,7 +25,7 @@ std::optional<BoxEvent> RefboxClient::next(std::chrono::nanoseconds timeout) {
   const auto deadline = Clock::now() + timeout;
   while (events_.empty()) {
     const auto until = std::min(deadline, Clock::now() + kPollInterval);
-    connected_ ? hear(until) : open(until);
+    connected_ ? receive(until) : open(until);
     if (events_.empty() && Clock::now() >= deadline) return std::nullopt;
   }
   BoxEvent event = std::move(events_.front());
@@ -62,11 +62,11 @@ void RefboxClient::refused(std::string why) {
   events_.emplace_back(Unreachable{std::move(why)});
 }
 
-void RefboxClient::hear(Clock::time_point deadline) {
+void RefboxClient::receive(Clock::time_point deadline) {
   std::array<char, 4096> bytes;
   const auto count = line_->read(bytes, deadline);
   if (!count) return lose(line_->why());
-  for (Word& word : words_.add({bytes.data(), *count})) {
+  for (ParsedCommand& word : words_.add({bytes.data(), *count})) {
     if (const auto* const command = std::get_if<Command>(&word)) {
       accepted_ = accepted_ || command->kind != CommandKind::kReset;
       turned_away_ = !accepted_;

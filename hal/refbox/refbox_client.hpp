@@ -88,7 +88,7 @@ class RefboxClient {
  private:
   void open(Clock::time_point deadline);
   void refused(std::string why);
-  void hear(Clock::time_point deadline);
+  void receive(Clock::time_point deadline);
   void look_at_acknowledgements();
   void lose(std::string why);
 

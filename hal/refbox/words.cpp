@@ -29,7 +29,7 @@ Side side_of(std::string_view target, std::string_view group) {
 
 }  // namespace
 
-Word read_object(std::string_view object, std::string_view group) {
+ParsedCommand read_object(std::string_view object, std::string_view group) {
   const auto json = nlohmann::json::parse(object, nullptr, false);
   if (json.is_discarded()) return no_command("what is no JSON", object);
   if (!json.is_object()) return no_command("JSON that is no object", object);
@@ -58,7 +58,7 @@ Word read_object(std::string_view object, std::string_view group) {
   return command;
 }
 
-Word read_letter(char letter, Colour ours) {
+ParsedCommand read_letter(char letter, Colour ours) {
   const auto known = trivela::refbox::word_of_letter(letter);
   if (!known) return no_command("a letter that nobody knows", std::string_view{&letter, 1});
   if (!known->team) return Command{known->kind, Side::kBoth};
@@ -70,8 +70,8 @@ std::optional<std::string_view> CommandStream::wrong_protocol() const {
   return "it speaks objects, not letters: set refbox.letters = false";
 }
 
-std::vector<Word> CommandStream::letters(std::string_view bytes) {
-  std::vector<Word> words;
+std::vector<ParsedCommand> CommandStream::letters(std::string_view bytes) {
+  std::vector<ParsedCommand> words;
   for (const char letter : bytes) {
     objects_for_letters_ = objects_for_letters_ || letter == '{';
     if (objects_for_letters_) break;
@@ -81,7 +81,7 @@ std::vector<Word> CommandStream::letters(std::string_view bytes) {
   return words;
 }
 
-std::optional<Word> CommandStream::no_object(std::string_view bytes) {
+std::optional<ParsedCommand> CommandStream::no_object(std::string_view bytes) {
   using namespace std::string_view_literals;
   const auto first = bytes.find_first_not_of(" \t\r\n\0"sv);
   if (begun_ || first == std::string_view::npos) return std::nullopt;
@@ -91,13 +91,14 @@ std::optional<Word> CommandStream::no_object(std::string_view bytes) {
                     bytes.substr(first, 1));
 }
 
-std::vector<Word> CommandStream::add(std::string_view bytes) {
+std::vector<ParsedCommand> CommandStream::add(std::string_view bytes) {
   if (team_.protocol == Protocol::kLetters) return letters(bytes);
-  std::vector<Word> words;
+  std::vector<ParsedCommand> words;
   if (auto word = no_object(bytes)) words.push_back(std::move(*word));
   for (const Framed& framed : framing_.add(bytes)) {
-    words.push_back(framed.overlong ? Word{NoCommand{fmt::format("an object of over {} bytes", kLongestObject_B)}}
-                                    : read_object(framed.text, team_.group));
+    words.push_back(framed.overlong
+                        ? ParsedCommand{NoCommand{fmt::format("an object of over {} bytes", kLongestObject_B)}}
+                        : read_object(framed.text, team_.group));
   }
   return words;
 }

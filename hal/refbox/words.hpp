@@ -18,16 +18,16 @@ struct NoCommand {
   friend bool operator==(const NoCommand&, const NoCommand&) = default;
 };
 
-using Word = std::variant<Command, NoCommand>;
+using ParsedCommand = std::variant<Command, NoCommand>;
 
 /// A command of the league's JSON protocol: {"command":"KICKOFF","targetTeam":"224.16.32.39"}, keys in any order, with
 /// "robotID" where it is about one robot, "emulated" where our own program says WELCOME. `group` is our team's
 /// multicast group. A target that is empty or missing is both teams, our group is ours, also with the ":1" that a box
 /// adds where a team plays itself; any other is theirs.
-Word read_object(std::string_view object, std::string_view group);
+ParsedCommand read_object(std::string_view object, std::string_view group);
 
 /// A command of the protocol before 2016, one letter.
-Word read_letter(char letter, Colour ours);
+ParsedCommand read_letter(char letter, Colour ours);
 
 /// Which of them the box speaks.
 enum class Protocol : std::uint8_t { kJson, kLetters };
@@ -46,15 +46,15 @@ class CommandStream {
 
   /// The words that these bytes end, in their order. None of those that follow an object where letters are spoken: the
   /// letters of its text are commands, too, a START among them.
-  std::vector<Word> add(std::string_view bytes);
+  std::vector<ParsedCommand> add(std::string_view bytes);
 
   /// What is to be set otherwise, where the box speaks objects to who hears letters; nothing that it says counts then.
   std::optional<std::string_view> wrong_protocol() const;
 
  private:
-  std::vector<Word> letters(std::string_view bytes);
+  std::vector<ParsedCommand> letters(std::string_view bytes);
   /// Once a connection: that it begins with no object.
-  std::optional<Word> no_object(std::string_view bytes);
+  std::optional<ParsedCommand> no_object(std::string_view bytes);
 
   TeamMarks team_;
   bool begun_ = false;

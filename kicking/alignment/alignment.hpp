@@ -4,7 +4,7 @@
 
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/frames.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::kicking {
 
@@ -24,7 +24,7 @@ struct AlignmentRule {
 struct Alignment {
   bool aligned = false;
   double centre_distance_m = 0.0;  ///< robot centre to target
-  Maybe offset_right_m;            ///< where S1 meets the line of S2, right of the target; none: it does not, ahead
+  OptionalDouble offset_right_m;   ///< where S1 meets the line of S2, right of the target; none: it does not, ahead
   double left_m = 0.0;             ///< reach of S2 to the left of the target
   double right_m = 0.0;
 };

@@ -15,7 +15,7 @@ struct Step {
 
 /// Newton's root of a function that rises through it; none where that does not settle within a few steps.
 template <typename Function>
-Maybe newton(double start, const Function& f) {
+OptionalDouble newton(double start, const Function& f) {
   double x = start;
   for (int i = 0; i < 8; ++i) {
     const auto [value, slope] = f(x);
@@ -43,7 +43,7 @@ std::optional<Aim> aim_exact(const FlightPoint& point, const Elevation& exit_ang
     return rise_m(t) / tangent - std::sqrt(along * along + right * right);
   };
   const double t_at_rest = std::sqrt(2.0 * drop / gravity_mps2);
-  Maybe t = newton(t_at_rest, [&](double at) {
+  OptionalDouble t = newton(t_at_rest, [&](double at) {
     const double along = d - carry.along_mps * at, right = carry.right_mps * at;
     const double norm = std::sqrt(along * along + right * right);
     const double slope = gravity_mps2 * at / tangent + (along * carry.along_mps - right * carry.right_mps) / norm;

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <optional>
 
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::kicking {
 
 /// Root of f in [low, high] where f(low) <= 0 <= f(high): false position with the Illinois rule, halving where that is
 /// slow. None if the ends do not bracket a root.
 template <typename Function>
-Maybe bracketed_root(const Function& f, double low, double high) {
+OptionalDouble bracketed_root(const Function& f, double low, double high) {
   double f_low = f(low);
   double f_high = f(high);
   if (!(f_low <= 0.0 && f_high >= 0.0)) return std::nullopt;
@@ -39,7 +39,7 @@ Maybe bracketed_root(const Function& f, double low, double high) {
 
 /// The first of start, 2 start, 4 start, ... where f >= 0; none below the limit.
 template <typename Function>
-Maybe doubled_until_positive(const Function& f, double start, double limit) {
+OptionalDouble doubled_until_positive(const Function& f, double start, double limit) {
   for (double x = start; x < limit; x *= 2.0) {
     if (f(x) >= 0.0) return x;
   }

@@ -11,7 +11,7 @@ double height_at(double distance_m, double v_h_mps, double v_z_mps, double gravi
   return v_z_mps * t - 0.5 * gravity_mps2 * t * t;
 }
 
-Maybe crossing_speed(const FlightPoint& point, const Elevation& exit_angle, double gravity_mps2) {
+OptionalDouble crossing_speed(const FlightPoint& point, const Elevation& exit_angle, double gravity_mps2) {
   const double d = point.distance_m;
   const double drop = d * exit_angle.tangent() - point.height_m;  // below the line of the kick, at d
   if (!(d > 0.0 && drop > 0.0)) return std::nullopt;

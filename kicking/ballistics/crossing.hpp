@@ -2,7 +2,7 @@
 
 #include "kicking/constants.hpp"
 #include "kicking/geometry/angle.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::kicking {
 
@@ -18,7 +18,8 @@ double height_at(double distance_m, double v_h_mps, double v_z_mps, double gravi
 
 /// Exit speed of the drag-free flight through the point [m/s]: v0 = sqrt(g d^2 / (2 cos^2(theta) (d tan(theta) - h))).
 /// None if no speed reaches it: d <= 0 or d tan(theta) <= h.
-Maybe crossing_speed(const FlightPoint& point, const Elevation& exit_angle, double gravity_mps2 = kGravity_mps2);
+OptionalDouble crossing_speed(const FlightPoint& point, const Elevation& exit_angle,
+                              double gravity_mps2 = kGravity_mps2);
 
 /// Does that flight pass the point on its way down: h < d tan(theta) / 2?
 bool descends_through(const FlightPoint& point, const Elevation& exit_angle);

@@ -50,8 +50,8 @@ void fly_at_times(const Eigen::Vector4d& start, double drag_per_m, std::span<con
   }
 }
 
-Maybe crossing_speed_with_drag(const FlightPoint& point, double exit_angle_rad, double drag_per_m,
-                               double gravity_mps2) {
+OptionalDouble crossing_speed_with_drag(const FlightPoint& point, double exit_angle_rad, double drag_per_m,
+                                        double gravity_mps2) {
   const auto vacuum_mps = crossing_speed(point, exit_angle_rad, gravity_mps2);
   if (!vacuum_mps || drag_per_m <= 0.0) return vacuum_mps;
   const auto excess_m = [&](double v0_mps) {

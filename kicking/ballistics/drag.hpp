@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kicking/ballistics/crossing.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::kicking {
 
@@ -28,7 +28,7 @@ void fly_at_times(const Eigen::Vector4d& start, double drag_per_m, std::span<con
 
 /// True exit speed of the flight with drag through the point [m/s]; none if d tan(theta) <= h or it takes more than 200
 /// m/s.
-Maybe crossing_speed_with_drag(const FlightPoint& point, double exit_angle_rad, double drag_per_m,
-                               double gravity_mps2 = kGravity_mps2);
+OptionalDouble crossing_speed_with_drag(const FlightPoint& point, double exit_angle_rad, double drag_per_m,
+                                        double gravity_mps2 = kGravity_mps2);
 
 }  // namespace trivela::kicking

@@ -5,7 +5,7 @@
 namespace trivela::kicking {
 
 KickSpeeds kick_speeds(const WantedKick& wanted) {
-  const Maybe v0_mps = crossing_speed(wanted.point, wanted.exit_angle, wanted.gravity_mps2);
+  const OptionalDouble v0_mps = crossing_speed(wanted.point, wanted.exit_angle, wanted.gravity_mps2);
   if (!v0_mps) return {};
   return {.v0_mps = v0_mps,
           .vk_exact_mps = moving_kick_exact(wanted.point, wanted.exit_angle, wanted.u_mps(), wanted.gravity_mps2),

@@ -3,7 +3,7 @@
 #include "kicking/ballistics/crossing.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/angle.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::kicking {
 
@@ -20,10 +20,10 @@ struct WantedKick {
 
 /// The exit speeds for it, without drag; all none where no speed reaches the point.
 struct KickSpeeds {
-  Maybe v0_mps;             ///< robot at rest, crossing_speed()
-  Maybe vk_exact_mps;       ///< moving_kick_exact(); none also where the robot is too fast for it
-  Maybe vk_paper_mps;       ///< moving_kick_paper()
-  bool descending = false;  ///< the flight from rest passes the point on its way down
+  OptionalDouble v0_mps;        ///< robot at rest, crossing_speed()
+  OptionalDouble vk_exact_mps;  ///< moving_kick_exact(); none also where the robot is too fast for it
+  OptionalDouble vk_paper_mps;  ///< moving_kick_paper()
+  bool descending = false;      ///< the flight from rest passes the point on its way down
 };
 
 KickSpeeds kick_speeds(const WantedKick& wanted);

@@ -8,7 +8,8 @@ double moving_kick_paper(double v0_mps, double u_mps, const Elevation& exit_angl
   return v0_mps - u_mps * exit_angle.cosine;
 }
 
-Maybe moving_kick_exact(const FlightPoint& point, const Elevation& exit_angle, double u_mps, double gravity_mps2) {
+OptionalDouble moving_kick_exact(const FlightPoint& point, const Elevation& exit_angle, double u_mps,
+                                 double gravity_mps2) {
   const double d = point.distance_m;
   const double h = point.height_m;
   const double c = exit_angle.cosine;

@@ -5,7 +5,7 @@
 #include "kicking/ballistics/crossing.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/angle.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::kicking {
 
@@ -29,8 +29,8 @@ double moving_kick_paper(double v0_mps, double u_mps, const Elevation& exit_angl
 /// Kick of a robot whose forward velocity adds u = k v_front [m/s] to the ball's horizontal speed V cos(theta), through
 /// the point: V^2 c (d s - h c) + V u (d s - 2 h c) - (h u^2 + g d^2 / 2) = 0, the positive root. None if d <= 0, d
 /// tan(theta) <= h or the robot alone is too fast for a point below the launch.
-Maybe moving_kick_exact(const FlightPoint& point, const Elevation& exit_angle, double u_mps,
-                        double gravity_mps2 = kGravity_mps2);
+OptionalDouble moving_kick_exact(const FlightPoint& point, const Elevation& exit_angle, double u_mps,
+                                 double gravity_mps2 = kGravity_mps2);
 
 /// The way to a line in front: its distance D straight ahead, the share of the kick's direction that points there (cos
 /// of the angle between them), and what the robot's motion adds towards it.

@@ -4,7 +4,7 @@
 
 #include "kicking/geometry/frames.hpp"
 #include "kicking/learning/kicker_estimate.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::kicking {
 
@@ -17,7 +17,7 @@ struct KickFlight {
   double elevation_rad = 0.0;
   double direction_rad = 0.0;  ///< heading of the flight in F
   double sd_mps = 0.0;         ///< standard deviation of a component of that velocity
-  Maybe late_s;                ///< it left so much later than expected; none: not seen
+  OptionalDouble late_s;       ///< it left so much later than expected; none: not seen
 };
 
 /// What a flight shows against what a kicker with these differences gives: along the kick, to its left, up [m/s], late

@@ -39,7 +39,7 @@ AngleTable steeper(const AngleTable& file, double by_rad) {
 
 }  // namespace
 
-bool sound(const KickerEstimate& estimate) {
+bool valid(const KickerEstimate& estimate) {
   const double spreads[] = {estimate.speed_sd_ratio, estimate.elevation_sd_rad, estimate.direction_sd_rad,
                             estimate.delay_sd_s};
   constexpr double kMost = 2.0;

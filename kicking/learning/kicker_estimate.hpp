@@ -48,7 +48,7 @@ struct KickerEstimate {
 
 /// No difference or error is beyond 2 of its unit (e^2 of the speed, 2 rad, 2 s), no error below 0, all are finite:
 /// what came over a bus or out of a file may be used.
-bool sound(const KickerEstimate& estimate);
+bool valid(const KickerEstimate& estimate);
 
 /// The robot as the estimate has it. The means are added to table, angles, direction, delay and transfer; the lines of
 /// the paper follow. The spreads hold the standard errors, so that every probability allows for them. Every figure

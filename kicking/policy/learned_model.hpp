@@ -3,20 +3,20 @@
 #include <array>
 #include <cstddef>
 
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 #include "kicking/policy/predictive/learned_decision.hpp"
 
 namespace trivela::kicking {
 
 /// What a kick looks like when it is ordered, as the robot believes it.
 struct ShotFeatures {
-  double p_on_target = 0.5;   ///< physical prediction of the predictive policy
-  double distance_m = 0.0;    ///< ball centre to target, horizontal
-  double vx_mps = 0.0;        ///< of the robot, right positive
-  double vy_mps = 0.0;        ///< forward
-  double omega_radps = 0.0;   ///< counter-clockwise
-  double power = 0.0;         ///< set-point
-  Maybe opponent_distance_m;  ///< nearest opponent to the ball; none: not seen
+  double p_on_target = 0.5;            ///< physical prediction of the predictive policy
+  double distance_m = 0.0;             ///< ball centre to target, horizontal
+  double vx_mps = 0.0;                 ///< of the robot, right positive
+  double vy_mps = 0.0;                 ///< forward
+  double omega_radps = 0.0;            ///< counter-clockwise
+  double power = 0.0;                  ///< set-point
+  OptionalDouble opponent_distance_m;  ///< nearest opponent to the ball; none: not seen
 };
 
 /// A logistic correction of the physical probability P of a ball on target, trained on logs (`trivela learn`):

@@ -65,7 +65,7 @@ void refuse_nonsense(const PolicyConfig& config, const RobotModel& robot, Policy
     numbers = false;
     *number = 0.0;
   }
-  for (Maybe* const p : {&output.p_on_target, &output.p_goal})
+  for (OptionalDouble* const p : {&output.p_on_target, &output.p_goal})
     if (*p && !(**p >= 0.0 && **p <= 1.0)) *p = std::nullopt;
   const bool in_cycle = output.fire_after_s >= 0.0 && output.fire_after_s <= config.cycle_s;
   if (output.reason == Reason::kFire && (!numbers || !in_cycle || !output.power || output.kick_kind >= robot.kinds()))

@@ -10,8 +10,8 @@
 #include "kicking/alignment/release_predictor.hpp"
 #include "kicking/geometry/frames.hpp"
 #include "kicking/geometry/goal.hpp"
-#include "kicking/maybe.hpp"
 #include "kicking/model/robot_model.hpp"
+#include "kicking/optional_double.hpp"
 #include "kicking/outcome/blocking.hpp"
 #include "kicking/outcome/keeper.hpp"
 #include "kicking/policy/policy_config.hpp"
@@ -48,7 +48,7 @@ constexpr const char* name(Reason reason) { return kReasonNames.at(static_cast<s
 struct SeenKick {
   std::int64_t kick_id = 0;
   std::uint32_t possession_id = 0;  ///< that it ended
-  Maybe x_cross_m;                  ///< ball centre at the goal line, in F; none: it was not seen to cross
+  OptionalDouble x_cross_m;         ///< ball centre at the goal line, in F; none: it was not seen to cross
 };
 
 /// What one cycle knows.
@@ -63,22 +63,22 @@ struct PolicyInput {
   double state_age_s = 0.0;    ///< of the older of world state and kicker status
   double sd_position_m = 0.0;  ///< of the pose by its filter, each axis
   double sd_heading_rad = 0.0;
-  std::uint8_t lever_kind = 0;  ///< kind of kick that the lever stands for; kLeverMoves: for none
-  Maybe opponent_distance_m;    ///< nearest opponent to the ball; stopped and moving do not look at it
+  std::uint8_t lever_kind = 0;         ///< kind of kick that the lever stands for; kLeverMoves: for none
+  OptionalDouble opponent_distance_m;  ///< nearest opponent to the ball; stopped and moving do not look at it
   std::array<BodyPlace, kMostBodies> opponents{};  ///< that are tracked, the keeper aside
   std::size_t opponent_count = 0;                  ///< of them; 0: their places are not known
-  Maybe opponent_closing_mps;         ///< how fast it comes, where both are known exactly: the oracle alone
-  std::optional<KeeperPlace> keeper;  ///< that is tracked
-  std::optional<SeenKick> last_kick;  ///< the latest one with an outcome; the turn drive alone looks at it
-  Maybe set_piece_left_s;             ///< a kick that takes our set piece is released until then
+  OptionalDouble opponent_closing_mps;  ///< how fast it comes, where both are known exactly: the oracle alone
+  std::optional<KeeperPlace> keeper;    ///< that is tracked
+  std::optional<SeenKick> last_kick;    ///< the latest one with an outcome; the turn drive alone looks at it
+  OptionalDouble set_piece_left_s;      ///< a kick that takes our set piece is released until then
 };
 
 /// What the kick of one cycle needs, and where it would go.
 struct ShotNumbers {
-  double distance_m = 0.0;  ///< ball centre to target, horizontal
-  Maybe v0_mps;             ///< exit speed for a robot at rest; none: the angle is too flat for the height
-  Maybe v_kick_mps;         ///< exit speed asked of the kicker
-  Maybe power;              ///< set-point, fractional
+  double distance_m = 0.0;    ///< ball centre to target, horizontal
+  OptionalDouble v0_mps;      ///< exit speed for a robot at rest; none: the angle is too flat for the height
+  OptionalDouble v_kick_mps;  ///< exit speed asked of the kicker
+  OptionalDouble power;       ///< set-point, fractional
   std::optional<PredictedCrossing> predicted;  ///< where that set-point sends the ball, if the order goes out now
 };
 
@@ -91,8 +91,8 @@ struct PolicyOutput : Alignment, ShotNumbers {
   double target_z_m = 0.0;
   double alpha_rad = 0.0;       ///< right positive
   double beta_rad = 0.0;        ///< with the sign of omega
-  Maybe p_on_target;            ///< predicted probability that this kick is on target; none: not computed
-  Maybe p_goal;                 ///< the same, and past the keeper; none: no keeper is tracked
+  OptionalDouble p_on_target;   ///< predicted probability that this kick is on target; none: not computed
+  OptionalDouble p_goal;        ///< the same, and past the keeper; none: no keeper is tracked
   double fire_after_s = 0.0;    ///< energise the coil so much later than the input's instant, within a cycle
   std::uint8_t kick_kind = 0;   ///< of the kick, as in RobotModel::kind()
   std::uint8_t lever_kind = 0;  ///< for which the lever shall stand until the next cycle
@@ -104,8 +104,8 @@ struct PolicyOutput : Alignment, ShotNumbers {
 
 /// A number of the predicted crossing.
 template <double PredictedCrossing::*number>
-Maybe predicted(const PolicyOutput& output) {
-  return output.predicted ? Maybe((*output.predicted).*number) : std::nullopt;
+OptionalDouble predicted(const PolicyOutput& output) {
+  return output.predicted ? OptionalDouble((*output.predicted).*number) : std::nullopt;
 }
 
 /// A part of an output that is recorded, by its name in the messages. A new field of PolicyOutput stands below, too.

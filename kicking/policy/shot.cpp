@@ -25,8 +25,8 @@ Carry carry_towards(const Eigen::Vector2d& line, const TurnedPose& release, cons
 
 /// Exit speeds that the kick needs at one exit angle.
 struct Speeds {
-  Maybe v0_mps;
-  Maybe v_kick_mps;
+  OptionalDouble v0_mps;
+  OptionalDouble v_kick_mps;
 };
 
 /// The angle of the least power whose kick is fast enough at its own angle, by bisection between the two set-points

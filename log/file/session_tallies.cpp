@@ -12,9 +12,9 @@
 #include "log/file/decisions_of.sql.hpp"
 #include "log/file/driver_counts_of.sql.hpp"
 #include "log/file/first_decisions_of.sql.hpp"
-#include "log/file/heard_halves_of.sql.hpp"
 #include "log/file/log_file.hpp"
 #include "log/file/played_spans_of.sql.hpp"
+#include "log/file/recorded_halves_of.sql.hpp"
 #include "log/schema/queries.hpp"
 #include "log/schema/row_digest.hpp"
 
@@ -67,7 +67,7 @@ struct Tally {
 std::array<Tally, 4> tallies(std::string_view wanted) {
   return {Tally{"session_tallies", counted(wanted, kDecisionsOfSql)}, Tally{"possession_tallies", possessions(wanted)},
           Tally{"order_tallies", counted(wanted, kDriverCountsOfSql)},
-          Tally{"referee_tallies", counted(wanted, kHeardHalvesOfSql)}};
+          Tally{"referee_tallies", counted(wanted, kRecordedHalvesOfSql)}};
 }
 
 void write_turns(SQLite::Database& database, std::int64_t session_id, std::string_view wanted) {
@@ -124,7 +124,7 @@ void create_tally_views(SQLite::Database& database) {
                    kCounted),
        kFirstDecisionsOfSql);
   view("driver_counts", fmt::format("SELECT * FROM order_tallies WHERE {}", kCounted), kDriverCountsOfSql);
-  view("heard_halves", fmt::format("SELECT * FROM referee_tallies WHERE {}", kCounted), kHeardHalvesOfSql);
+  view("recorded_halves", fmt::format("SELECT * FROM referee_tallies WHERE {}", kCounted), kRecordedHalvesOfSql);
 }
 
 std::vector<std::string> wrong_tallies(const LogFile& file) {

@@ -34,8 +34,8 @@ std::int64_t drift_ns(std::int64_t span_ns) {
 
 /// Sessions of the other participant that ran at that instant of its clock: those of the start of its machine whose UTC
 /// is nearest to what the measuring session's was.
-std::vector<SessionPlace> heard_sessions(const std::vector<ClockedSession>& sessions, const ClockOffset& offset,
-                                         const ClockedSession& by) {
+std::vector<SessionPlace> recorded_sessions(const std::vector<ClockedSession>& sessions, const ClockOffset& offset,
+                                            const ClockedSession& by) {
   std::vector<std::pair<std::int64_t, SessionPlace>> found;
   const std::int64_t there_t_ns = offset.t_ns + offset.offset_ns;
   for (SessionPlace i = 0; i < sessions.size(); ++i) {
@@ -60,7 +60,7 @@ Edges edges_of(const std::vector<ClockedSession>& sessions, const std::vector<Cl
   for (const ClockOffset& offset : offsets) {
     const auto by = by_id.find(offset.session_id);
     if (by == by_id.end() || sessions[by->second].robot_id != offset.robot_id) continue;
-    for (const SessionPlace other : heard_sessions(sessions, offset, sessions[by->second])) {
+    for (const SessionPlace other : recorded_sessions(sessions, offset, sessions[by->second])) {
       if (other == by->second) continue;
       edges[{by->second, other}].push_back({offset.t_ns, offset.offset_ns, offset.error_ns});
       edges[{other, by->second}].push_back({offset.t_ns + offset.offset_ns, -offset.offset_ns, offset.error_ns});

@@ -97,14 +97,14 @@ std::int64_t MergeSource::rows_of(std::int64_t session_id) const {
 
 std::string KickConflict::line() const {
   std::vector<std::string> claims;
-  for (const Said& one : said) claims.push_back(fmt::format("{} says {}", one.source, one.what));
+  for (const Claim& one : said) claims.push_back(fmt::format("{} says {}", one.source, one.what));
   return fmt::format("kick {}:{} ({}): {}", robot_id, kick_id & kCounter, about, fmt::join(claims, ", "));
 }
 
 void KickConflicts::say(const Kick& kick, const std::string& about, const std::string& source,
                         const std::string& what) {
   auto& said = kicks_[kick][about];
-  if (std::ranges::find(said, what, &KickConflict::Said::what) == said.end()) said.push_back({source, what});
+  if (std::ranges::find(said, what, &KickConflict::Claim::what) == said.end()) said.push_back({source, what});
 }
 
 void KickConflicts::add(const MergeSource& file) {

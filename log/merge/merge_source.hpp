@@ -62,11 +62,11 @@ struct KickConflict {
   std::int64_t kick_id = 0;
   std::int64_t t_ns = 0;  ///< of the decision
   std::string about;      ///< "policy", "driver", "outcome" or "label"
-  struct Said {
+  struct Claim {
     std::string source;  ///< name of the file, without its folder
     std::string what;
   };
-  std::vector<Said> said;  ///< of each different thing the first source
+  std::vector<Claim> said;  ///< of each different thing the first source
 
   /// "kick 1:4 (outcome): robot1.db says on_target, base.db says over"
   std::string line() const;
@@ -84,7 +84,7 @@ class KickConflicts {
 
  private:
   using Kick = std::tuple<int, std::int64_t, std::int64_t, std::optional<std::int64_t>, std::int64_t>;
-  using Sayings = std::map<std::string, std::vector<KickConflict::Said>>;  // by what they are about
+  using Sayings = std::map<std::string, std::vector<KickConflict::Claim>>;  // by what they are about
 
   void say(const Kick& kick, const std::string& about, const std::string& source, const std::string& what);
 

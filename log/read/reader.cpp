@@ -85,7 +85,7 @@ std::vector<GivenLabel> Reader::labels() const {
       &L::uuid, &L::robot_id, &L::kick_id, &L::utc_ns, &L::who, &L::t_ns, &L::outcome, &L::note);
 }
 
-void Reader::hear_labels(const std::vector<GivenLabel>& labels) {
+void Reader::read_labels(const std::vector<GivenLabel>& labels) {
   SQLite::Statement insert(impl_->file.database(), "INSERT INTO temp.labels_elsewhere VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
   for (const GivenLabel& label : labels) {
     insert.bind(1, label.uuid);

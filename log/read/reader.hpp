@@ -145,7 +145,7 @@ class Reader final : public Queries {
   std::vector<GivenLabel> labels() const;
 
   /// From now on these count like the log's own, where it has their session.
-  void hear_labels(const std::vector<GivenLabel>& labels);
+  void read_labels(const std::vector<GivenLabel>& labels);
 
   /// From now on the view counted_kicks of this reader has neither kicks of these sessions nor these kicks.
   void leave_out(const std::vector<std::int64_t>& session_ids, const std::vector<RecordedKick>& kicks);

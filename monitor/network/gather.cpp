@@ -156,14 +156,14 @@ sockaddr_in address_of(in_addr_t address, unsigned port) {
 Probed not_sent() { return {Probe::kNotSent, std::strerror(errno)}; }
 
 // Sends, and waits for that word; others may speak on the port meanwhile.
-Probed send_and_hear(const Socket& out, const Socket& in, const sockaddr_in& to) {
+Probed send_and_receive(const Socket& out, const Socket& in, const sockaddr_in& to) {
   if (sendto(out.descriptor(), kWord, sizeof kWord, 0, reinterpret_cast<const sockaddr*>(&to), sizeof to) < 0)
     return errno == EPERM ? Probed{Probe::kLost, "the firewall refuses it"} : not_sent();
   pollfd readable{in.descriptor(), POLLIN, 0};
   for (int i = 0; i < 100 && poll(&readable, 1, kTimeout_ms) > 0; ++i) {
-    std::array<char, 64> heard{};
-    const ssize_t n = recv(in.descriptor(), heard.data(), heard.size(), 0);
-    if (n == sizeof kWord && std::memcmp(heard.data(), kWord, sizeof kWord) == 0) return {Probe::kArrived, {}};
+    std::array<char, 64> received{};
+    const ssize_t n = recv(in.descriptor(), received.data(), received.size(), 0);
+    if (n == sizeof kWord && std::memcmp(received.data(), kWord, sizeof kWord) == 0) return {Probe::kArrived, {}};
   }
   return {Probe::kLost, {}};
 }
@@ -218,7 +218,7 @@ Probed probe_multicast(const std::string& address, const std::string& group, uns
   if (!out.set(IPPROTO_IP, IP_MULTICAST_IF, membership.imr_interface) ||
       !out.set(IPPROTO_IP, IP_MULTICAST_TTL, stays) || !out.set(IPPROTO_IP, IP_MULTICAST_LOOP, comes_back))
     return not_sent();
-  return send_and_hear(out, in, address_of(membership.imr_multiaddr.s_addr, port));
+  return send_and_receive(out, in, address_of(membership.imr_multiaddr.s_addr, port));
 }
 
 Probed probe_unicast(const std::string& address, Ports ports) {
@@ -231,7 +231,7 @@ Probed probe_unicast(const std::string& address, Ports ports) {
       if (errno == EADDRINUSE) continue;
       return not_sent();
     }
-    return send_and_hear(out, in, self);
+    return send_and_receive(out, in, self);
   }
   return {Probe::kNotSent, "every port of the domain is in use"};
 }

@@ -76,7 +76,7 @@ KickDecisionNode::KickDecisionNode(NodeContext& context, DecisionNode which)
   if (which_ == DecisionNode::kSecond) {
     node_.on<msg::DriveCommand>([this, first = bus::owner_of_robot(kDecisionNode, context_.robot_id())](
                                     const msg::DriveCommand&, const bus::SampleInfo& info) {
-      if (info.owner == first) first_node_.heard(context_.steady_ns());
+      if (info.owner == first) first_node_.received(context_.steady_ns());
     });
   }
   node_.on<msg::WorldState>([this](const msg::WorldState& world) { on_world(world); },
@@ -95,7 +95,7 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   const auto status = input_of_cycle(context_, *kicker_, world.t_ns);
   const msg::KickerStatus* kicker = status ? &*status : nullptr;
   if (context_.settings.policy.rules.set_piece_s > 0.0) {
-    if (const auto word = input_of_cycle(context_, *referee_, world.t_ns)) decider_.hear(*word);
+    if (const auto word = input_of_cycle(context_, *referee_, world.t_ns)) decider_.receive(*word);
   }
   const std::int64_t began_ns = context_.steady_ns();
   const robot::CycleDecision& decision = decider_.decide(world, kicker, outcome(world, kicker), nullptr, age_s(world));

@@ -10,7 +10,7 @@
 #include "evaluator/drift/drift_watch.hpp"
 #include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 #include "nodes/runtime/node_main.hpp"
 
 namespace trivela::nodes {
@@ -29,14 +29,15 @@ bus::ReaderOptions looking_on() {
   return options;
 }
 
-msg::KickerDrift drift_message(const evaluator::DriftEstimate& story, std::span<const evaluator::WatchedKick> kicks) {
+msg::KickerDrift drift_message(const evaluator::DriftEstimate& timeline,
+                               std::span<const evaluator::WatchedKick> kicks) {
   msg::KickerDrift message{};
   message.factor = message.factor_se = message.height_m = message.table_factor = msg::kNone;
-  if (story.drifts.empty()) return message;
-  const evaluator::Drift& drift = story.drifts.back();
+  if (timeline.drifts.empty()) return message;
+  const evaluator::Drift& drift = timeline.drifts.back();
   const bool speed = drift.kind == evaluator::DriftKind::kExitSpeed;
   message.t_ns = kicks[drift.found].t_ns;
-  message.changes = static_cast<std::uint32_t>(story.drifts.size());
+  message.changes = static_cast<std::uint32_t>(timeline.drifts.size());
   message.changed_kick_id = kicks[drift.changed].kick_id;
   message.found_kick_id = kicks[drift.found].kick_id;
   message.kind = speed ? msg::DRIFT_EXIT_SPEED : msg::DRIFT_ELEVATION;
@@ -54,29 +55,29 @@ bool says_the_same(const msg::KickerDrift& a, const msg::KickerDrift& b) {
 
 }  // namespace
 
-KickSeries::Words* KickSeries::words_of(std::int64_t kick_id) {
+KickSeries::Texts* KickSeries::words_of(std::int64_t kick_id) {
   if (kick_id <= 0) return nullptr;
-  const auto known = words_.find(kick_id);
-  if (known != words_.end()) return &known->second;
-  return words_.size() < kMostKicks ? &words_[kick_id] : nullptr;
+  const auto known = texts_.find(kick_id);
+  if (known != texts_.end()) return &known->second;
+  return texts_.size() < kMostKicks ? &texts_[kick_id] : nullptr;
 }
 
-bool KickSeries::hear(const msg::KickDecision& decision) {
-  Words* const kick = decision.fire && decision.t_ns >= 0 ? words_of(decision.kick_id) : nullptr;
+bool KickSeries::receive(const msg::KickDecision& decision) {
+  Texts* const kick = decision.fire && decision.t_ns >= 0 ? words_of(decision.kick_id) : nullptr;
   if (kick == nullptr || (kick->decision && kick->decision->seq <= decision.seq)) return false;
   kick->decision = decision;
   return true;
 }
 
-bool KickSeries::hear(const msg::KickReceipt& receipt) {
-  Words* const kick = receipt.release_t_ns >= 0 ? words_of(receipt.kick_id) : nullptr;
+bool KickSeries::receive(const msg::KickReceipt& receipt) {
+  Texts* const kick = receipt.release_t_ns >= 0 ? words_of(receipt.kick_id) : nullptr;
   if (kick == nullptr || (kick->receipt && weight(receipt) <= weight(*kick->receipt))) return false;
   kick->receipt = receipt;
   return true;
 }
 
-bool KickSeries::hear(const msg::KickOutcome& outcome) {
-  Words* const kick = words_of(outcome.kick_id);
+bool KickSeries::receive(const msg::KickOutcome& outcome) {
+  Texts* const kick = words_of(outcome.kick_id);
   if (kick == nullptr || (kick->outcome && outcome.seq <= kick->outcome->seq)) return false;
   kick->outcome = outcome;
   return true;
@@ -84,14 +85,14 @@ bool KickSeries::hear(const msg::KickOutcome& outcome) {
 
 std::vector<evaluator::WatchedKick> KickSeries::kicks() const {
   std::vector<evaluator::WatchedKick> kicks;
-  for (const auto& [kick_id, words] : words_) {
+  for (const auto& [kick_id, words] : texts_) {
     if (words.decision && words.receipt && words.receipt->accepted) kicks.push_back(watched(words));
   }
   std::ranges::sort(kicks, {}, [](const evaluator::WatchedKick& kick) { return std::pair(kick.t_ns, kick.kick_id); });
   return kicks;
 }
 
-evaluator::WatchedKick KickSeries::watched(const Words& words) {
+evaluator::WatchedKick KickSeries::watched(const Texts& words) {
   const msg::KickDecision& decision = *words.decision;
   evaluator::WatchedKick kick{.kick_id = decision.kick_id,
                               .t_ns = decision.t_ns,
@@ -100,8 +101,8 @@ evaluator::WatchedKick KickSeries::watched(const Words& words) {
                               .lead_s = kicking::seconds(words.receipt->release_t_ns - decision.t_ns),
                               .policy = static_cast<int>(decision.policy),
                               .goal_y_m = decision.target_y_m};
-  const kicking::Maybe x_m = decision.predicted_x_cross_m, z_m = decision.predicted_z_cross_m,
-                       t_flight_s = decision.predicted_t_flight_s;
+  const kicking::OptionalDouble x_m = decision.predicted_x_cross_m, z_m = decision.predicted_z_cross_m,
+                                t_flight_s = decision.predicted_t_flight_s;
   if (!words.outcome || !x_m || !z_m || !t_flight_s || decision.kick_kind != 0) return kick;
   kick.x_m = *x_m;
   kick.z_m = *z_m;
@@ -130,7 +131,7 @@ void KickerDriftNode::listen() {
       [this](const T& word) {
         if (!context_.participant.believes(word.t_ns)) return;
         const std::lock_guard lock{mutex_};
-        if (series_.hear(word)) judge();
+        if (series_.receive(word)) judge();
       },
       bus::writes<msg::KickerDrift>(), looking_on());
 }
@@ -140,15 +141,16 @@ void KickerDriftNode::judge() {
   std::vector<evaluator::KickResidual> residuals;
   residuals.reserve(kicks.size());
   for (const evaluator::WatchedKick& kick : kicks) residuals.push_back(evaluator::residual_of(kick));
-  const evaluator::DriftEstimate story = evaluator::drifts_of(residuals);
-  const msg::KickerDrift message = drift_message(story, kicks);
+  const evaluator::DriftEstimate timeline = evaluator::drifts_of(residuals);
+  const msg::KickerDrift message = drift_message(timeline, kicks);
   if (says_the_same(message, said_)) return;
   say(message);
-  if (story.drifts.empty()) {
+  if (timeline.drifts.empty()) {
     context_.logger->info("the kicker has not changed: a later outcome of its kicks takes that back");
   } else {
     context_.logger->warn("the kicker changed at kick {}: {}; {}", message.changed_kick_id,
-                          evaluator::words_of(story.drifts.back()), evaluator::correction_of(story.drifts.back()));
+                          evaluator::words_of(timeline.drifts.back()),
+                          evaluator::correction_of(timeline.drifts.back()));
   }
 }
 

@@ -20,23 +20,23 @@ class KickSeries {
   static constexpr std::size_t kMostKicks = 10'000;  ///< later ones are passed over
 
   /// Each is true where a kick has become another one by it; what has an instant below 0 is passed over.
-  bool hear(const msg::KickDecision& decision);
-  bool hear(const msg::KickReceipt& receipt);
-  bool hear(const msg::KickOutcome& outcome);
+  bool receive(const msg::KickDecision& decision);
+  bool receive(const msg::KickReceipt& receipt);
+  bool receive(const msg::KickOutcome& outcome);
 
   /// Those that the driver accepted, by the instants of their decisions.
   std::vector<evaluator::WatchedKick> kicks() const;
 
  private:
-  struct Words {
+  struct Texts {
     std::optional<msg::KickDecision> decision;
     std::optional<msg::KickReceipt> receipt;
     std::optional<msg::KickOutcome> outcome;
   };
-  Words* words_of(std::int64_t kick_id);
-  static evaluator::WatchedKick watched(const Words& words);
+  Texts* words_of(std::int64_t kick_id);
+  static evaluator::WatchedKick watched(const Texts& words);
 
-  std::map<std::int64_t, Words> words_;
+  std::map<std::int64_t, Texts> texts_;
 };
 
 /// Decisions, receipts and outcomes of a robot in, KickerDrift out once its kicker has changed, by the watch that

@@ -26,8 +26,8 @@ std::vector<std::string> decision_owners(const NodeContext& context) {
 KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker)
     : context_(context),
       kicker_(std::move(kicker)),
-      desk_(context.settings.kicker_driver, context.settings.run.cycle_s, context.robot.model, context.robot_id(),
-            context.settings.run.lockstep ? robot::DecisionNode::kThere : robot::DecisionNode::kUnheard),
+      controller_(context.settings.kicker_driver, context.settings.run.cycle_s, context.robot.model, context.robot_id(),
+                  context.settings.run.lockstep ? robot::DecisionNode::kThere : robot::DecisionNode::kUnheard),
       own_decisions_(decision_owners(context)),
       node_(context.participant, "kicker_driver", context.robot_id()),
       status_out_(node_.writer<msg::KickerStatus>()),
@@ -74,7 +74,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
 }
 
 void KickerDriverNode::begin_in_real_time() {
-  desk_.began(context_.steady_ns());
+  controller_.began(context_.steady_ns());
   pending_.emplace(PendingKick::name_of(context_.settings.domain, context_.robot_id()));
   if (!pending_->why().empty())
     context_.logger->warn("a kick that is lost with this program will not be reported: {}", pending_->why());
@@ -107,9 +107,9 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   emulation_.see(msg::PART_KICKER, sample.emulated, sample.t_ns);
   check_clock(sample);
   say_link(sample.fault == hal::KickerFault::kLink);
-  const msg::KickerStatus status = desk_.status(sample, referee_says(word), now_t_ns());
+  const msg::KickerStatus status = controller_.status(sample, referee_permission(word), now_t_ns());
   look_for_decision();
-  kicker_->charge(desk_.charge_command());  // before anybody hears of the state that it belongs to
+  kicker_->charge(controller_.charge_command());  // before anybody hears of the state that it belongs to
   status_out_.write(status);
   withdraw();
   take_results();
@@ -119,7 +119,7 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
 KickerDriverNode::~KickerDriverNode() {
   try {
     if (!context_.settings.run.lockstep) take_results();
-    kicker_->charge(desk_.end());
+    kicker_->charge(controller_.end());
     kicker_->make_safe();  // from here on it does not ask this node any more
   } catch (const std::exception& error) {
     context_.logger->error("the board does not take the command to empty: {}", error.what());
@@ -159,7 +159,7 @@ void KickerDriverNode::tell_charge() {
   if (context_.settings.run.lockstep) return;
   const std::lock_guard lock{mutex_};
   look_for_decision();
-  kicker_->charge(desk_.charge_command());
+  kicker_->charge(controller_.charge_command());
   take_results();
 }
 
@@ -170,28 +170,28 @@ void KickerDriverNode::tell_charge() {
 void KickerDriverNode::look_for_decision() {
   if (context_.settings.run.lockstep) return;
   constexpr std::int64_t kLost_ns = 200'000'000;
-  const std::int64_t heard_ns = decision_heard_ns_;
+  const std::int64_t received_ns = decision_received_ns_;
   robot::DecisionNode known = robot::DecisionNode::kUnheard;
-  if (heard_ns != 0) {
-    const bool lost = context_.steady_ns() - heard_ns > kLost_ns;
+  if (received_ns != 0) {
+    const bool lost = context_.steady_ns() - received_ns > kLost_ns;
     known = lost ? robot::DecisionNode::kLost : robot::DecisionNode::kThere;
   }
   if (known == robot::DecisionNode::kLost && decision_ != known)
     context_.logger->warn("the decision node is gone: the capacitor is to be emptied");
   decision_ = known;
-  desk_.decision_node(known, now_t_ns());
+  controller_.decision_node(known, now_t_ns());
 }
 
 /// In lockstep the cycle's word; in real time the last one, for as long as it counts, and while the robot's own world
 /// does not say that the game stands: a stop that was lost on the way to one of the two still stops.
-robot::RefereeSays KickerDriverNode::referee_says(const std::optional<msg::Referee>& word_of_cycle) {
+robot::RefereePermission KickerDriverNode::referee_permission(const std::optional<msg::Referee>& word_of_cycle) {
   if (referee_of_cycle_)
-    return word_of_cycle && word_of_cycle->playing ? robot::RefereeSays::kPlay : robot::RefereeSays::kStop;
-  if (context_.stop.requested()) return robot::RefereeSays::kStop;  // this program ends
+    return word_of_cycle && word_of_cycle->playing ? robot::RefereePermission::kPlay : robot::RefereePermission::kStop;
+  if (context_.stop.requested()) return robot::RefereePermission::kStop;  // this program ends
   const std::int64_t now_ns = now_t_ns();
   if (const auto news = referee_.news(now_ns)) context_.logger->warn(*news);
-  const robot::RefereeSays says = referee_.says(now_ns);
-  return says == robot::RefereeSays::kPlay && world_stands_ ? robot::RefereeSays::kStop : says;
+  const robot::RefereePermission says = referee_.says(now_ns);
+  return says == robot::RefereePermission::kPlay && world_stands_ ? robot::RefereePermission::kStop : says;
 }
 
 /// A sample that is not of the steady clock would make every order stale without saying why.
@@ -216,7 +216,7 @@ void KickerDriverNode::say_link(bool lost) {
 void KickerDriverNode::on_referee(const msg::Referee& word, const bus::SampleInfo& info) {
   if (!word.playing) called_off_ns_ = now_t_ns();  // before it waits for anybody
   const std::lock_guard lock{mutex_};
-  referee_.heard(word, now_t_ns(), info.writer);
+  referee_.received(word, now_t_ns(), info.writer);
   if (!word.playing) stop();
 }
 
@@ -228,13 +228,13 @@ void KickerDriverNode::on_world(const msg::WorldState& world) {
 }
 
 void KickerDriverNode::stop() {
-  desk_.referee(robot::RefereeSays::kStop);
+  controller_.referee(robot::RefereePermission::kStop);
   withdraw();
 }
 
 /// Calls a kick off that the device has been told of but has not done yet.
 void KickerDriverNode::withdraw() {
-  const auto receipt = desk_.withdrawal(now_t_ns());
+  const auto receipt = controller_.withdrawal(now_t_ns());
   if (!receipt) return;
   kicker_->withdraw(receipt->kick_id);
   context_.logger->warn("kick {} called off: {}", receipt->kick_id, bus::label(receipt->refusal));
@@ -256,8 +256,8 @@ void KickerDriverNode::complete_predecessor() {
   context_.logger->warn(
       "kick {} was accepted by a driver that ended {}", left.receipt.kick_id,
       left.being_told ? "while it wrote to the device: whether it fired is not known" : "before it fired");
-  receipt_out_.write(left.being_told ? desk_.not_known(left.receipt, now_t_ns())
-                                     : desk_.not_fired(left.receipt, now_t_ns()));
+  receipt_out_.write(left.being_told ? controller_.not_known(left.receipt, now_t_ns())
+                                     : controller_.not_fired(left.receipt, now_t_ns()));
   pending_->forget();
   pending_->settled();
 }
@@ -266,7 +266,7 @@ void KickerDriverNode::complete_predecessor() {
 void KickerDriverNode::take_results() {
   complete_predecessor();
   while (const auto result = kicker_->take_result()) {
-    const auto receipt = desk_.result(*result, now_t_ns());
+    const auto receipt = controller_.result(*result, now_t_ns());
     if (!receipt) continue;
     context_.logger->warn("kick {} was not fired: {}", receipt->kick_id, bus::label(receipt->refusal));
     receipt_out_.write(*receipt);
@@ -277,19 +277,19 @@ void KickerDriverNode::take_results() {
 /// Two programs in the decision node's name: nobody can tell whose orders are the robot's, and none is fired.
 void KickerDriverNode::on_drive(const msg::DriveCommand& drive, const bus::SampleInfo& info) {
   if (!owns_decisions(info)) return;
-  hear_drive(info);
+  receive_drive(info);
   const std::lock_guard lock{mutex_};
   // A lever that began to move under an accepted order would make another kick of it.
-  if (decision_heard_ns_ != 0 && !desk_.firing()) kicker_->lever(drive.lever_kind);
+  if (decision_received_ns_ != 0 && !controller_.firing()) kicker_->lever(drive.lever_kind);
 }
 
-void KickerDriverNode::hear_drive(const bus::SampleInfo& info) {
+void KickerDriverNode::receive_drive(const bus::SampleInfo& info) {
   const std::int64_t now_ns = context_.steady_ns();
   const std::lock_guard lock{drives_mutex_};
   bus::WriterWatch& drives = drives_.try_emplace(std::string(info.owner)).first->second;
   if (drives.see(info.member, now_ns))
     context_.logger->warn("several programs write drive as {}: nothing is fired; stop all but one", info.owner);
-  decision_heard_ns_ = drives.contested(now_ns) ? 0 : now_ns;
+  decision_received_ns_ = drives.contested(now_ns) ? 0 : now_ns;
 }
 
 /// The name is what an order is known by. One of another program than that whose drive commands are heard is named.
@@ -321,9 +321,9 @@ void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) 
   const std::int64_t received_ns = real_time ? context_.steady_ns() : 0;
   const std::lock_guard lock{mutex_};
   look_for_decision();
-  if (real_time) desk_.referee(referee_says({}));
+  if (real_time) controller_.referee(referee_permission({}));
   const std::int64_t judged_ns = now_t_ns();
-  msg::KickReceipt receipt = desk_.answer(order, judged_ns, by);
+  msg::KickReceipt receipt = controller_.answer(order, judged_ns, by);
   receipt.received_steady_ns = received_ns;
   if (receipt.accepted) {
     if (pending_) pending_->accepted(receipt);
@@ -344,7 +344,7 @@ void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) 
 }
 
 void KickerDriverNode::report_done(std::int64_t t_ns) {
-  step_done(step_done_, context_.robot_id(), msg::STEP_KICKER_DRIVER, t_ns, desk_.handled(), desk_.fires());
+  step_done(step_done_, context_.robot_id(), msg::STEP_KICKER_DRIVER, t_ns, controller_.handled(), controller_.fires());
 }
 
 int kicker_driver_main(int argc, char** argv) {

@@ -39,7 +39,7 @@ class KickerDriverNode {
   void on_sample(const hal::KickerSample& sample);
   void on_order(const msg::KickOrder& order, robot::OrderBy by);
   void on_drive(const msg::DriveCommand& drive, const bus::SampleInfo& info);
-  void hear_drive(const bus::SampleInfo& info);
+  void receive_drive(const bus::SampleInfo& info);
   bool by_own_decision(const bus::SampleInfo& info);
   bool owns_decisions(const bus::SampleInfo& info) const;
   void on_referee(const msg::Referee& word, const bus::SampleInfo& info);
@@ -51,7 +51,7 @@ class KickerDriverNode {
   void complete_predecessor();
   std::int64_t deadline_ns(const msg::KickOrder& order) const;
   std::int64_t now_t_ns() const;
-  robot::RefereeSays referee_says(const std::optional<msg::Referee>& word_of_cycle);
+  robot::RefereePermission referee_permission(const std::optional<msg::Referee>& word_of_cycle);
   void check_clock(const hal::KickerSample& sample);
   void say_link(bool lost);
   void demand_capabilities() const;
@@ -65,12 +65,12 @@ class KickerDriverNode {
   std::mutex mutex_;                    // device thread and order reaction
   std::optional<PendingKick> pending_;  // real time
   std::unique_ptr<hal::Kicker> kicker_;
-  robot::KickerController desk_;
+  robot::KickerController controller_;
   std::int64_t sample_t_ns_ = 0;
   std::atomic<std::int64_t> called_off_ns_ = 0;  // the last stop, by the steady clock
   bool clock_differs_ = false;
   robot::DecisionNode decision_ = robot::DecisionNode::kUnheard;
-  std::atomic<std::int64_t> decision_heard_ns_ = 0;  // 0: not yet
+  std::atomic<std::int64_t> decision_received_ns_ = 0;  // 0: not yet
   std::mutex drives_mutex_;
   std::map<std::string, bus::WriterWatch, std::less<>> drives_;  // by owner: the participants that write them
   bool other_orders_ = false;                                    // the last order was of another participant

@@ -45,12 +45,12 @@ std::optional<hal::WheelSample> OdometryNode::next_sample(std::chrono::nanosecon
 }
 
 /// What the device says of its link and of its motors, whenever that is something else.
-void OdometryNode::say_status(bool heard) {
+void OdometryNode::say_status(bool received) {
   std::string said = wheels_->status();
   if (said == status_said_) return;
   status_said_ = std::move(said);
   if (!status_said_.empty())
-    context_.logger->log(heard ? spdlog::level::info : spdlog::level::warn, "{}", status_said_);
+    context_.logger->log(received ? spdlog::level::info : spdlog::level::warn, "{}", status_said_);
 }
 
 void OdometryNode::on_wheels(const hal::WheelSample& sample) {
@@ -90,8 +90,8 @@ void OdometryNode::on_drive(const msg::DriveCommand& command) {
   {
     const std::lock_guard lock{drive_mutex_};
     const std::int64_t now_ns = context_.settings.run.lockstep ? command.t_ns : context_.steady_ns();
-    if (arbiter_.hear(msg::DRIVE_KICK_DECISION, command.t_ns, {command.vx_mps, command.vy_mps, command.omega_radps},
-                      now_ns))
+    if (arbiter_.receive(msg::DRIVE_KICK_DECISION, command.t_ns, {command.vx_mps, command.vy_mps, command.omega_radps},
+                         now_ns))
       drive_wheels(now_ns, true);
   }
   step_done(step_done_, context_.robot_id(), msg::STEP_ODOMETRY, command.t_ns);
@@ -104,7 +104,7 @@ void OdometryNode::on_team_drive(const msg::TeamDrive& command) {
   const bool lockstep = context_.settings.run.lockstep;
   const std::int64_t now_ns = lockstep ? command.t_ns : context_.steady_ns();
   const kicking::Twist twist{command.vx_mps, command.vy_mps, command.omega_radps};
-  if (!arbiter_.hear(msg::DRIVE_TEAM, command.t_ns, twist, now_ns)) {
+  if (!arbiter_.receive(msg::DRIVE_TEAM, command.t_ns, twist, now_ns)) {
     context_.logger->warn("team_drive of t {} ns is {:.2f} s old: not obeyed", command.t_ns,
                           kicking::seconds(now_ns) - kicking::seconds(command.t_ns));
     return;

@@ -22,7 +22,7 @@ class OdometryNode {
 
  private:
   std::optional<hal::WheelSample> next_sample(std::chrono::nanoseconds timeout);
-  void say_status(bool heard);
+  void say_status(bool received);
   void on_wheels(const hal::WheelSample& sample);
   void stop_without_commands();
   void on_drive(const msg::DriveCommand& command);

@@ -29,10 +29,10 @@ std::size_t SilenceRecord::add(const std::string& table, double period_s) {
   return watch_.add(kicking::nanoseconds(longest_s));
 }
 
-void SilenceRecord::heard(std::size_t stream, std::uint8_t robot_id, std::int64_t t_ns) {
+void SilenceRecord::received(std::size_t stream, std::uint8_t robot_id, std::int64_t t_ns) {
   if (robot_id == 0) return;  // there is no such robot; in the log it stands for all of them
   const std::lock_guard lock{mutex_};
-  watch_.heard(stream, robot_id, t_ns);
+  watch_.received(stream, robot_id, t_ns);
 }
 
 void SilenceRecord::look(std::int64_t now_ns) {
@@ -80,7 +80,7 @@ RecorderNode::RecorderNode(NodeContext& context, log::Writer& log, std::shared_p
   if (state_->silences) {
     bus::ReaderOptions everything;
     everything.keep_all = true;
-    node_.on<msg::TeamHeard>([this](const msg::TeamHeard& heard) { store_heard(heard); }, {}, everything);
+    node_.on<msg::TeamHeard>([this](const msg::TeamHeard& received) { store_received(received); }, {}, everything);
   }
   // With keys a kicker_driver alone says it, and they do not let the recorder hear it.
   if (state_->silences && context_.keys.empty()) fires_.emplace(context.participant);
@@ -176,32 +176,32 @@ void RecorderNode::record(const std::string& table) {
         if (!seq) return;
         if constexpr (std::is_same_v<T, msg::KickDecision>) store_beside(sample, *seq);
         if constexpr (std::is_same_v<T, msg::KickReceipt>) state_->fires.answered(sample);
-        if (place) state_->silences->heard(*place, sample.robot_id, sample.t_ns);
+        if (place) state_->silences->received(*place, sample.robot_id, sample.t_ns);
         if (cycle_stream && sample.robot_id == context_.robot_id()) report_cycle(*cycle_stream, sample.t_ns);
       },
       bus::writes<msg::StepDone>(), everything);
 }
 
 /// The other's clock once a second, and its silences: of a robot by its number, of the base by that of the receiver.
-void RecorderNode::store_heard(const msg::TeamHeard& heard) {
+void RecorderNode::store_received(const msg::TeamHeard& received) {
   constexpr std::int64_t kEvery_ns = 1'000'000'000;
-  if (!context_.participant.believes(heard.t_ns)) return;
-  const std::int64_t other = heard.other_robot_id;
+  if (!context_.participant.believes(received.t_ns)) return;
+  const std::int64_t other = received.other_robot_id;
   if (other > 0) {
     const std::size_t place = state_->silences->add("team_state", kTeamPeriod_s);
-    state_->silences->heard(place, heard.other_robot_id, heard.t_ns);
+    state_->silences->received(place, received.other_robot_id, received.t_ns);
   } else {
     const std::size_t place = state_->silences->add("team_state of the base", kTeamPeriod_s);
-    state_->silences->heard(place, heard.robot_id, heard.t_ns);
+    state_->silences->received(place, received.robot_id, received.t_ns);
   }
-  const auto last = state_->clocks.find(heard.other_robot_id);
-  if (!heard.clock_known || (last != state_->clocks.end() && heard.t_ns - last->second < kEvery_ns)) return;
-  state_->clocks[heard.other_robot_id] = heard.t_ns;
-  clocks_.push({.robot_id = heard.robot_id,
-                .other_robot_id = heard.other_robot_id,
-                .t_ns = heard.t_ns,
-                .offset_ns = heard.offset_ns,
-                .error_ns = std::max<std::int64_t>(heard.error_ns, 0)});
+  const auto last = state_->clocks.find(received.other_robot_id);
+  if (!received.clock_known || (last != state_->clocks.end() && received.t_ns - last->second < kEvery_ns)) return;
+  state_->clocks[received.other_robot_id] = received.t_ns;
+  clocks_.push({.robot_id = received.robot_id,
+                .other_robot_id = received.other_robot_id,
+                .t_ns = received.t_ns,
+                .offset_ns = received.offset_ns,
+                .error_ns = std::max<std::int64_t>(received.error_ns, 0)});
 }
 
 void RecorderNode::report_cycle(std::size_t stream, std::int64_t t_ns) {
@@ -246,7 +246,7 @@ int recorder_main(int argc, char** argv) {
     state->log = placed->path;
     RecorderNode node{context, log, state};
     // Its own thread takes the samples: the bus's receive thread must never wait for the log.
-    bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}, context.pulse()}.run();
+    bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}, context.watchdog_hook()}.run();
     node.note_silences();
     log.finalise();
     const auto stats = log.stats();

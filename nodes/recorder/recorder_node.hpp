@@ -44,7 +44,7 @@ class SilenceRecord {
   /// The number of a stream, by the table of its samples, and with its period where it is new.
   std::size_t add(const std::string& table, double period_s);
 
-  void heard(std::size_t stream, std::uint8_t robot_id, std::int64_t t_ns);
+  void received(std::size_t stream, std::uint8_t robot_id, std::int64_t t_ns);
   void look(std::int64_t now_ns);
 
  private:
@@ -114,7 +114,7 @@ class RecorderNode {
   /// A writer of truth is there, or else an emulated device: the log says so, once. For any thread.
   void note_simulation(bool truth);
 
-  void store_heard(const msg::TeamHeard& heard);
+  void store_received(const msg::TeamHeard& received);
 
   /// Words to a coil that nobody answers for: one note.
   void note_fires(const std::vector<msg::DeviceFire>& fires);

@@ -52,9 +52,10 @@ RefboxNode::RefboxNode(NodeContext& context, std::shared_ptr<RefboxLink> link)
     robots_.push_back({static_cast<std::uint8_t>(robot_id), node_.writer<msg::Referee>(referee_of(robot_id))});
   for (const Robot& robot : robots_) reject_duplicate_node(context_, robot.referee_out, "referee", robot.robot_id);
   node_.on<msg::WorldState>([this](const msg::WorldState& world) { on_world(world); });
-  node_.on<msg::TeamHeard>([this](const msg::TeamHeard& heard) {  // on the base: of robots whose own bus is elsewhere
-    if (const auto world = robot::world_of(heard)) on_world(*world);
-  });
+  node_.on<msg::TeamHeard>(
+      [this](const msg::TeamHeard& received) {  // on the base: of robots whose own bus is elsewhere
+        if (const auto world = robot::world_of(received)) on_world(*world);
+      });
   node_.on_device(
       "refbox", [this](std::chrono::nanoseconds timeout) { return next(timeout); },
       [this](const Event& event) { on_event(event); }, bus::writes<msg::Referee, msg::DeviceEmulated>());

@@ -34,12 +34,12 @@ void InputWatch::add(const bus::Input& input) {
   const std::string name = device ? input.name.substr(kDevice.size()) : input.name;
   const auto known = std::ranges::find(inputs_, name, &Watched::name);
   if (known != inputs_.end()) {
-    known->heard_ns.push_back(input.heard_ns);
+    known->received_ns.push_back(input.received_ns);
     return;
   }
   const double period_s = std::max(device ? kDevicePeriod_s : input.period_s, context_.settings.run.cycle_s);
   const auto period_ns = kicking::nanoseconds(period_s);
-  inputs_.push_back({name, watch_.add(period_ns), period_ns, {input.heard_ns}});
+  inputs_.push_back({name, watch_.add(period_ns), period_ns, {input.received_ns}});
 }
 
 void InputWatch::look(std::int64_t now_ns) {
@@ -49,11 +49,11 @@ void InputWatch::look(std::int64_t now_ns) {
   looked_ns_ = now_ns;
   const std::uint8_t robot_id = context_.robot_id();
   for (Watched& input : inputs_) {
-    std::int64_t heard_ns = 0;
-    for (const auto& way : input.heard_ns) heard_ns = std::max(heard_ns, way(now_ns - input.period_ns));
-    if (heard_ns == input.last_ns) continue;
-    watch_.heard(input.stream, robot_id, heard_ns, heard_ns);
-    input.last_ns = heard_ns;
+    std::int64_t received_ns = 0;
+    for (const auto& way : input.received_ns) received_ns = std::max(received_ns, way(now_ns - input.period_ns));
+    if (received_ns == input.last_ns) continue;
+    watch_.received(input.stream, robot_id, received_ns, received_ns);
+    input.last_ns = received_ns;
   }
   for (const robot::SilenceEdge& edge : watch_.look(now_ns)) lines_.note(edge, inputs_[edge.stream].name);
   for (const std::string& line : lines_.due(now_ns)) context_.logger->warn("{}", line);
@@ -61,8 +61,8 @@ void InputWatch::look(std::int64_t now_ns) {
 }
 
 void InputWatch::look_for_the_unheard(std::int64_t now_ns) {
-  if (unheard_said_ || now_ns - *started_ns_ < kUnheard_ns) return;
-  unheard_said_ = true;
+  if (silence_reported_ || now_ns - *started_ns_ < kUnheard_ns) return;
+  silence_reported_ = true;
   for (const Watched& input : inputs_)
     if (input.last_ns == 0)
       context_.logger->warn("{} not received yet, {} s after the start", input.name, kUnheard_ns / 1'000'000'000);

@@ -25,7 +25,7 @@ class InputWatch {
     std::string name;  // topic or device
     std::size_t stream = 0;
     std::int64_t period_ns = 0;
-    std::vector<std::function<std::int64_t(std::int64_t)>> heard_ns;  // a topic may come in several ways
+    std::vector<std::function<std::int64_t(std::int64_t)>> received_ns;  // a topic may come in several ways
     std::int64_t last_ns = 0;
   };
 
@@ -38,7 +38,7 @@ class InputWatch {
   robot::SilenceWatch watch_;
   robot::SilenceLines lines_;
   std::optional<std::int64_t> started_ns_, looked_ns_;
-  bool unheard_said_ = false;
+  bool silence_reported_ = false;
 };
 
 }  // namespace trivela::nodes

@@ -12,8 +12,8 @@
 
 #include "bus/domain/participant.hpp"
 #include "bus/node.hpp"
-#include "bus/pulse.hpp"
 #include "bus/stop.hpp"
+#include "bus/watchdog_hook.hpp"
 #include "config/robot.hpp"
 #include "config/settings.hpp"
 
@@ -48,7 +48,7 @@ struct NodeContext {
 
   /// The same for an executor, which gives it while all of its node's loops come round: what is late is an error in the
   /// log, and no sign of life is given. The context outlives it.
-  bus::Pulse pulse() const;
+  bus::WatchdogHook watchdog_hook() const;
 
   /// Waits for the stop, no longer than the timeout.
   void idle(std::chrono::nanoseconds timeout) const;

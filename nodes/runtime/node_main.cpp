@@ -43,15 +43,15 @@ void NodeContext::alive() const {
   if (supervisor) supervisor->alive();
 }
 
-bus::Pulse NodeContext::pulse() const {
+bus::WatchdogHook NodeContext::watchdog_hook() const {
   if (!supervisor) return {};
-  const auto beat = [this](const std::string& late) {
+  const auto notify = [this](const std::string& late) {
     if (late.empty()) return alive();
     logger->error("{} does not come round: the service manager gets no sign of life", late);
   };
   // In lockstep a reaction may wait for the others' samples.
   const std::chrono::seconds timeout = settings.run.lockstep ? kLockstepTimeout : std::chrono::seconds{1};
-  return {.beat = beat, .timeout = timeout};
+  return {.notify = notify, .timeout = timeout};
 }
 
 bus::DomainConfig domain_of(const config::Domain& domain) {
@@ -175,7 +175,7 @@ void run(NodeContext& context, const std::vector<bus::Node*>& nodes) {
   const auto kind = context.settings.run.lockstep ? bus::Executor::kWaitset : bus::Executor::kListener;
   std::deque<InputWatch> silences;
   for (bus::Node* const node : nodes) silences.emplace_back(context, *node);
-  bus::Executor{kind, context.stop, nodes, context.pulse()}.run();
+  bus::Executor{kind, context.stop, nodes, context.watchdog_hook()}.run();
 }
 
 }  // namespace trivela::nodes

@@ -119,7 +119,7 @@ int scan_recorder_main(int argc, char** argv) {
   return node_main(argc, argv, "scan_recorder", [](NodeContext& context) {
     ScanRecorderNode node{context, hal::open_range_finder(context.settings.scan_recorder.device,
                                                           {context.participant, context.robot_id()})};
-    bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}, context.pulse()}.run();
+    bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}, context.watchdog_hook()}.run();
     node.finish();
     context.logger->info("recorded {} scans: {}", node.scans(), context.settings.scan_recorder.file);
   });

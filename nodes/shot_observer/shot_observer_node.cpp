@@ -64,14 +64,14 @@ void ShotObserverNode::keep_refused_state() {
 void ShotObserverNode::on_decision(const msg::KickDecision& decision) {
   if (!learning_ || !decision.fire || !context_.participant.believes(decision.t_ns)) return;
   const std::lock_guard lock{mutex_};
-  learning_->hear(decision);
+  learning_->receive(decision);
 }
 
 void ShotObserverNode::on_receipt(const msg::KickReceipt& receipt) {
   if (!context_.participant.believes(receipt.release_t_ns)) return;
   const std::lock_guard lock{mutex_};
   publish(observer_.receipt(receipt, context_.robot.model), receipt.order_t_ns);
-  if (learning_) learning_->hear(receipt);
+  if (learning_) learning_->receive(receipt);
 }
 
 void ShotObserverNode::on_frame(const msg::FlightFrame& frame) {

@@ -44,7 +44,7 @@ EmulatedDevices::EmulatedDevices(const config::Settings& settings, const kicking
       base_(hal::emulated_wheels(settings.hal.wheels, base)),
       gyro_(hal::emulated_gyro(settings.hal.gyro)),
       box_(box_of(settings.refbox)),
-      voice_(our_team(settings.refbox)) {}
+      referee_output_(our_team(settings.refbox)) {}
 
 std::vector<std::string> EmulatedDevices::settings() const {
   std::vector<std::string> lines{"refbox.host=\"127.0.0.1\"", fmt::format("refbox.port={}", box_.port())};
@@ -64,7 +64,7 @@ bool EmulatedDevices::wait_for_nodes(const bus::Stop& stop) {
 }
 
 void EmulatedDevices::show(const sim::Sensors& sensors) {
-  say(voice_.hear(sensors.referee));
+  say(referee_output_.receive(sensors.referee));
   if (base_) base_->show(sensors.wheels.wheel_radps);
   if (gyro_) gyro_->show(sensors.wheels.gyro_radps);
   if (kicker_) kicker_->show(sensors.kicker.charge, sensors.kicker.armed);
@@ -73,15 +73,15 @@ void EmulatedDevices::show(const sim::Sensors& sensors) {
 std::vector<hal::CoilPulse> EmulatedDevices::take_pulses() {
   if (!kicker_) return {};
   std::vector<hal::CoilPulse> pulses = kicker_->take_pulses();
-  for (const hal::CoilPulse& pulse : pulses)
-    logger_->info("pulse of {:.3f} ms at {} ns", pulse.length_us / 1000.0, pulse.t_ns);
+  for (const hal::CoilPulse& watchdog_hook : pulses)
+    logger_->info("pulse of {:.3f} ms at {} ns", watchdog_hook.length_us / 1000.0, watchdog_hook.t_ns);
   return pulses;
 }
 
 void EmulatedDevices::say_over() { say(box::RefereeOutput::over()); }
 
-void EmulatedDevices::say(const std::vector<box::Said>& words) {
-  for (const box::Said& word : words) {
+void EmulatedDevices::say(const std::vector<box::BoxCommand>& words) {
+  for (const box::BoxCommand& word : words) {
     const std::int64_t t_ns = now_ns(std::chrono::steady_clock::now());
     box_.act(word);
     logger_->info("{} said by the box at {} ns", box::name(word.kind), t_ns);

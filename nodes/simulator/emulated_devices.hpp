@@ -58,14 +58,14 @@ class EmulatedDevices {
   void say_over();
 
  private:
-  void say(const std::vector<hal::refbox::Said>& words);
+  void say(const std::vector<hal::refbox::BoxCommand>& words);
 
   std::shared_ptr<spdlog::logger> logger_;
   std::unique_ptr<hal::EmulatedKicker> kicker_;  // none: on the bus
   std::unique_ptr<hal::EmulatedWheels> base_;    // none: on the bus
   std::unique_ptr<hal::EmulatedGyro> gyro_;      // none: the wheels' own
   hal::refbox::EmulatedBox box_;
-  hal::refbox::RefereeOutput voice_;
+  hal::refbox::RefereeOutput referee_output_;
 };
 
 }  // namespace trivela::nodes

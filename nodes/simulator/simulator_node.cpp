@@ -127,11 +127,11 @@ void SimulatorNode::play() {
 bool SimulatorNode::nodes_are_here() {
   const bus::Stop& stop = context_.stop;
   const bool scans = scan_ && context_.settings.scan_recorder.enabled;
-  const auto heard = [this](const auto&... outputs) { return (readers_before_stop(context_, outputs) && ...); };
+  const auto received = [this](const auto&... outputs) { return (readers_before_stop(context_, outputs) && ...); };
   const auto driver = [this](auto timeout) { return fire_.wait_for_writers(1, timeout); };
-  return (!scans || heard(*scan_)) && heard(vision_, flight_, kick_truth_, possession_truth_) &&
-         (has_drives() || heard(wheels_)) && (!referee_ || heard(*referee_)) &&
-         (!kicker_ || (heard(*kicker_) && ready_before_stop(stop, driver, "no kicker_driver is there"))) &&
+  return (!scans || received(*scan_)) && received(vision_, flight_, kick_truth_, possession_truth_) &&
+         (has_drives() || received(wheels_)) && (!referee_ || received(*referee_)) &&
+         (!kicker_ || (received(*kicker_) && ready_before_stop(stop, driver, "no kicker_driver is there"))) &&
          (devices_ == nullptr || devices_->wait_for_nodes(stop));
 }
 
@@ -275,8 +275,8 @@ void SimulatorNode::order(const msg::DeviceFire& fire, sim::Commands& out) {
 /// A pulse stands for its kick until the kick's receipt is looked for, which may come after it.
 void SimulatorNode::take_pulses(sim::Commands& out) {
   if (!receipts_) return;
-  for (const hal::CoilPulse& pulse : devices_->take_pulses())
-    out.fire = sim::Fire{pulse.t_ns - started_ns_, pulse.t_ns, pulse.power};
+  for (const hal::CoilPulse& watchdog_hook : devices_->take_pulses())
+    out.fire = sim::Fire{watchdog_hook.t_ns - started_ns_, watchdog_hook.t_ns, watchdog_hook.power};
 }
 
 std::int64_t SimulatorNode::kick_of_pulse(std::int64_t t_ns) {

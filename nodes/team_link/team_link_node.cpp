@@ -19,7 +19,7 @@ bus::ReaderOptions looking_on() {
 
 template <class T>
 robot::LatestSample<T> last_word(bus::Mailbox<T>& mailbox) {
-  return {mailbox.latest(), mailbox.heard_ns(0)};
+  return {mailbox.latest(), mailbox.received_ns(0)};
 }
 
 std::string name_of(std::uint8_t participant) {
@@ -45,7 +45,7 @@ TeamLinkNode::TeamLinkNode(NodeContext& context, const bus::DomainConfig& team_b
       base_(context.settings.team_link.base),
       own_(base_ ? 0 : context.robot_id()),
       node_(context.participant, "team_link"),
-      heard_out_(node_.writer<msg::TeamHeard>()),
+      received_out_(node_.writer<msg::TeamHeard>()),
       peers_(own_, context.steady_ns()) {
   const bool takes_referee = !base_ && context.settings.team_link.referee;
   if (takes_referee) {
@@ -61,7 +61,8 @@ TeamLinkNode::TeamLinkNode(NodeContext& context, const bus::DomainConfig& team_b
   node_.every(base_ ? kBasePeriod : kRobotPeriod, "team_state", [this] { say_state(); });
   node_.on_device(
       "team", [this](std::chrono::nanoseconds timeout) { return member_->next(timeout); },
-      [this](const TeamMember::ReceivedMessage& heard) { hear(heard); }, bus::writes<msg::TeamHeard, msg::Referee>());
+      [this](const TeamMember::ReceivedMessage& received) { receive(received); },
+      bus::writes<msg::TeamHeard, msg::Referee>());
 }
 
 void TeamLinkNode::listen_to_robot() {
@@ -92,8 +93,8 @@ msg::TeamSummary TeamLinkNode::summary() {
                                .kicker = last_word(*robot_.kicker),
                                .decision = last_word(*robot_.decision),
                                .referee = last_word(*robot_.referee),
-                               .vision_heard_ns = last_word(*robot_.vision).heard_ns,
-                               .drive_heard_ns = last_word(*robot_.drive).heard_ns},
+                               .vision_received_ns = last_word(*robot_.vision).received_ns,
+                               .drive_received_ns = last_word(*robot_.drive).received_ns},
                               now);
 }
 
@@ -107,20 +108,20 @@ void TeamLinkNode::say_state() {
   member_->say(state);
 }
 
-void TeamLinkNode::hear(const TeamMember::ReceivedMessage& heard) {
+void TeamLinkNode::receive(const TeamMember::ReceivedMessage& received) {
   const std::lock_guard lock{mutex_};
-  std::visit([&](const auto& word) { hear(word, heard.t_ns); }, heard.word);
+  std::visit([&](const auto& word) { receive(word, received.t_ns); }, received.word);
 }
 
-void TeamLinkNode::hear(const msg::TeamState& state, std::int64_t t_ns) {
+void TeamLinkNode::receive(const msg::TeamState& state, std::int64_t t_ns) {
   if (peers_.is_duplicate(state)) return report_duplicate();
-  const auto news = peers_.heard(state, t_ns);
+  const auto news = peers_.received(state, t_ns);
   if (!news) return;
   if (base_) note_alarms(news->other_robot_id, news->summary.alarms);
-  heard_out_.write(*news);
+  received_out_.write(*news);
 }
 
-void TeamLinkNode::hear(const msg::Referee& word, std::int64_t t_ns) {
+void TeamLinkNode::receive(const msg::Referee& word, std::int64_t t_ns) {
   if (word.robot_id != 0 || !referee_out_) return;
   if (const auto ours = peers_.own_referee(word, t_ns)) referee_out_->write(*ours);
 }
@@ -150,7 +151,7 @@ int team_link_main(int argc, char** argv) {
     TeamLinkNode node{context, team_domain(context.settings, context.keys)};
     // On the team's bus silence is no fault of this node: nobody watches its inputs.
     const auto kind = context.settings.run.lockstep ? bus::Executor::kWaitset : bus::Executor::kListener;
-    bus::Executor{kind, context.stop, {&node.node()}, context.pulse()}.run();
+    bus::Executor{kind, context.stop, {&node.node()}, context.watchdog_hook()}.run();
   });
 }
 

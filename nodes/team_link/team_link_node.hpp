@@ -43,9 +43,9 @@ class TeamLinkNode {
   void listen_to_referee();
   void say_state();
   msg::TeamSummary summary();
-  void hear(const TeamMember::ReceivedMessage& heard);
-  void hear(const msg::TeamState& state, std::int64_t t_ns);
-  void hear(const msg::Referee& word, std::int64_t t_ns);
+  void receive(const TeamMember::ReceivedMessage& received);
+  void receive(const msg::TeamState& state, std::int64_t t_ns);
+  void receive(const msg::Referee& word, std::int64_t t_ns);
   void note_alarms(std::uint8_t other, std::uint32_t alarms);
   void report_duplicate();
 
@@ -53,7 +53,7 @@ class TeamLinkNode {
   const bool base_;
   const std::uint8_t own_;
   bus::Node node_;
-  bus::Output<msg::TeamHeard> heard_out_;
+  bus::Output<msg::TeamHeard> received_out_;
   std::optional<bus::Output<msg::Referee>> referee_out_;
   OfRobot robot_;
   std::mutex mutex_;  // of what follows

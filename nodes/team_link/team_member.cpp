@@ -120,14 +120,14 @@ void TeamMember::be_member(const std::string& address) {
   listen(node);
   node.on_device(
       "machine", [this](std::chrono::nanoseconds timeout) { return said_.next(timeout); },
-      [&](const Word& word) {
+      [&](const TeamMessage& word) {
         if (const auto* const of_us = std::get_if<msg::TeamState>(&word)) return state.write(*of_us);
         if (referee) referee->write(std::get<msg::Referee>(word));
       },
       bus::writes<msg::TeamState, msg::Referee>());
   bus::Stop over;
   node.every(kPollInterval, "interface", [&] { look_after(address, over); });
-  last_heard_ = Clock::now();
+  last_received_ = Clock::now();
   said_.clear();
   note_obstacle("");
   context_.logger->info("on the team's bus, domain {}{}", domain_.domain_id,
@@ -141,12 +141,12 @@ void TeamMember::listen(bus::Node& node) {
   newest.observer = true;
   node.on<msg::TeamState>(
       [this](const msg::TeamState& state) {
-        last_heard_ = Clock::now();
-        heard_.put({state, context_.steady_ns()});
+        last_received_ = Clock::now();
+        received_.put({state, context_.steady_ns()});
       },
       {}, newest);
   if (listens_to_referee_)
-    node.on<msg::Referee>([this](const msg::Referee& word) { heard_.put({word, context_.steady_ns()}); });
+    node.on<msg::Referee>([this](const msg::Referee& word) { received_.put({word, context_.steady_ns()}); });
 }
 
 void TeamMember::look_after(const std::string& address, bus::Stop& over) {
@@ -157,7 +157,7 @@ void TeamMember::look_after(const std::string& address, bus::Stop& over) {
                           now ? "has another address, " + *now : "has lost its address");
     return over.request();
   }
-  const auto silent = Clock::now() - last_heard_.load();
+  const auto silent = Clock::now() - last_received_.load();
   if (silent < kPollInterval) timeout_ = kShortestBackoff;
   if (silent < timeout_) return;
   context_.logger->info("nothing is received on the team's bus for {} s: joins it again",

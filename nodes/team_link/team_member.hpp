@@ -61,11 +61,11 @@ class BoundedQueue {
 class TeamMember {
  public:
   /// What is said on the team's bus.
-  using Word = std::variant<msg::TeamState, msg::Referee>;
+  using TeamMessage = std::variant<msg::TeamState, msg::Referee>;
 
   /// A word with the instant at which it came, by this machine's clock.
   struct ReceivedMessage {
-    Word word;
+    TeamMessage word;
     std::int64_t t_ns;
   };
 
@@ -75,10 +75,10 @@ class TeamMember {
   TeamMember& operator=(const TeamMember&) = delete;
   ~TeamMember();
 
-  void say(const Word& word) { said_.put(word); }
+  void say(const TeamMessage& word) { said_.put(word); }
 
   /// What others said next, waiting no longer than the timeout.
-  std::optional<ReceivedMessage> next(std::chrono::nanoseconds timeout) { return heard_.next(timeout); }
+  std::optional<ReceivedMessage> next(std::chrono::nanoseconds timeout) { return received_.next(timeout); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -94,9 +94,9 @@ class TeamMember {
   const bus::DomainConfig domain_;
   const std::string owner_;
   const bool listens_to_referee_;
-  BoundedQueue<Word> said_;
-  BoundedQueue<ReceivedMessage> heard_;
-  std::atomic<Clock::time_point> last_heard_{Clock::time_point{}};
+  BoundedQueue<TeamMessage> said_;
+  BoundedQueue<ReceivedMessage> received_;
+  std::atomic<Clock::time_point> last_received_{Clock::time_point{}};
   Clock::duration timeout_;
   std::string obstacle_;  // that was told last
   bus::Stop ends_;        // with the object

@@ -21,7 +21,7 @@ WorldStateNode::WorldStateNode(NodeContext& context)
            .on_liveliness = [this](const bus::Liveliness& writers) { referee_watch_.writers(writers.alive); }},
           [this](const msg::Referee& word, const bus::SampleInfo& info) {
             const std::lock_guard lock{referee_mutex_};
-            referee_watch_.heard(word, context_.steady_ns(), info.writer);
+            referee_watch_.received(word, context_.steady_ns(), info.writer);
           })),
       kicker_(node_.stores<msg::KickerStatus>()),
       first_(context.settings.run.lockstep) {
@@ -62,7 +62,7 @@ void WorldStateNode::trust_no_silence(std::optional<msg::Referee>& word) {
   const std::int64_t now_ns = context_.steady_ns();
   const std::lock_guard lock{referee_mutex_};
   if (const auto news = referee_watch_.news(now_ns)) context_.logger->warn(*news);
-  word->playing = referee_watch_.says(now_ns) == robot::RefereeSays::kPlay;
+  word->playing = referee_watch_.says(now_ns) == robot::RefereePermission::kPlay;
 }
 
 int world_state_main(int argc, char** argv) {

@@ -57,13 +57,13 @@ async function show(place) {
   by('empty').textContent = kicks.length === 0 ? 'The log has no kicks.' : 'There are none of these kicks.';
   describe();
   if (place === null) return;
-  const answer = await fetch(`/api/story?i=${place}`).catch(() => null);
+  const answer = await fetch(`/api/timeline?i=${place}`).catch(() => null);
   if (shown !== place) return;
   if (!answer) return tell(kEnded, true);
   if (!answer.ok) return tell((await answer.json()).error, true);
-  const story = await answer.json();
+  const timeline = await answer.json();
   if (shown !== place) return;
-  playing = replay(by('replay'), story);
+  playing = replay(by('replay'), timeline);
   document.body.dataset.shown = kicks[place].kick;
 }
 

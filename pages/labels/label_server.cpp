@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "config/text/parse_number.hpp"
-#include "evaluator/story/replay.hpp"
+#include "evaluator/timeline/replay.hpp"
 #include "log/schema/digest.hpp"
 #include "pages/labels/label_page.css.hpp"
 #include "pages/labels/label_page.html.hpp"
@@ -31,7 +31,7 @@ void answer(Response& response, int status, const json& body) {
 }  // namespace
 
 struct LabelServer::Impl {
-  LabelStore& desk;
+  LabelStore& store;
   std::string token = log::make_uuid();
   HttpServer server{};
 
@@ -48,8 +48,8 @@ struct LabelServer::Impl {
     if (!request.get_header_value("Content-Type").starts_with("application/json"))
       return refuse(response, 415, "labels are JSON: Content-Type must be application/json");
     try {
-      desk.add(json::parse(request.body), log::utc_now_ns());
-      answer(response, 200, desk.state());
+      store.add(json::parse(request.body), log::utc_now_ns());
+      answer(response, 200, store.state());
     } catch (const LabelRefused& error) {
       refuse(response, 400, error.what());
     } catch (const log::BadAddition& error) {
@@ -59,11 +59,11 @@ struct LabelServer::Impl {
     }
   }
 
-  void story(const Request& request, Response& response) const {
+  void timeline(const Request& request, Response& response) const {
     const auto place = config::parse_integer(request.get_param_value("i"));
     if (!place || *place < 0) return refuse(response, 400, "i must be a number");
     try {
-      response.set_content(desk.story(static_cast<std::size_t>(*place)), "application/json");
+      response.set_content(store.timeline(static_cast<std::size_t>(*place)), "application/json");
     } catch (const LabelRefused& error) {
       refuse(response, 404, error.what());
     }
@@ -81,8 +81,9 @@ struct LabelServer::Impl {
     page("/replay.js", evaluator::replay_script(), "text/javascript; charset=utf-8");
     page("/replay.css", evaluator::replay_style(), "text/css; charset=utf-8");
     server.routes.Get("/api/kicks",
-                      [this](const Request&, Response& response) { answer(response, 200, desk.state()); });
-    server.routes.Get("/api/story", [this](const Request& request, Response& response) { story(request, response); });
+                      [this](const Request&, Response& response) { answer(response, 200, store.state()); });
+    server.routes.Get("/api/timeline",
+                      [this](const Request& request, Response& response) { timeline(request, response); });
     server.routes.Post("/api/label", [this](const Request& request, Response& response) { label(request, response); });
     server.routes.set_pre_routing_handler([this](const Request& request, Response& response) {
       if (is_named(request.get_header_value("Host"))) return httplib::Server::HandlerResponse::Unhandled;
@@ -104,7 +105,7 @@ struct LabelServer::Impl {
   }
 };
 
-LabelServer::LabelServer(LabelStore& desk, int port) : impl_(new Impl{.desk = desk}) {
+LabelServer::LabelServer(LabelStore& store, int port) : impl_(new Impl{.store = store}) {
   impl_->route();
   impl_->listen(port);
 }

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "evaluator/counting/log_opportunities.hpp"
-#include "evaluator/story/kick_timeline.hpp"
+#include "evaluator/timeline/kick_timeline.hpp"
 
 namespace trivela::pages {
 namespace {
@@ -43,17 +43,17 @@ ordered_json json_of(const NamedKick& kick, std::int64_t utc_ms) {
 LabelStore::LabelStore(std::filesystem::path log) : log_(std::move(log)), additions_(log_) {
   log::Reader reader(log_);
   evaluator::read_opportunities(reader, log_.string(), false);  // from here on each kick once
-  std::map<std::tuple<std::int64_t, int, std::int64_t>, std::pair<std::int64_t, std::string>> stories;
-  for (evaluator::KickTimeline& story : evaluator::kick_timelines(reader)) {
-    story.truth.reset();
-    stories[{story.session_id, story.robot_id, story.kick_id}] = {
-        story.utc_ns / 1'000'000, evaluator::json_of(story).dump(-1, ' ', true, json::error_handler_t::replace)};
+  std::map<std::tuple<std::int64_t, int, std::int64_t>, std::pair<std::int64_t, std::string>> timelines;
+  for (evaluator::KickTimeline& timeline : evaluator::kick_timelines(reader)) {
+    timeline.truth.reset();
+    timelines[{timeline.session_id, timeline.robot_id, timeline.kick_id}] = {
+        timeline.utc_ns / 1'000'000, evaluator::json_of(timeline).dump(-1, ' ', true, json::error_handler_t::replace)};
   }
   kicks_ = evaluator::named_kicks(reader);
   for (const NamedKick& kick : kicks_) {
-    auto& [utc_ms, text] = stories[{kick.session_id, kick.robot_id, kick.kick_id}];
+    auto& [utc_ms, text] = timelines[{kick.session_id, kick.robot_id, kick.kick_id}];
     utc_ms_.push_back(utc_ms);
-    stories_.push_back(std::move(text));
+    timelines_.push_back(std::move(text));
   }
 }
 
@@ -65,10 +65,10 @@ ordered_json LabelStore::state() const {
   return state;
 }
 
-std::string LabelStore::story(std::size_t place) const {
-  if (place >= stories_.size() || stories_[place].empty())
+std::string LabelStore::timeline(std::size_t place) const {
+  if (place >= timelines_.size() || timelines_[place].empty())
     throw LabelRefused{fmt::format("there is no kick {}", place)};
-  return stories_[place];
+  return timelines_[place];
 }
 
 void LabelStore::add(const json& command, std::int64_t now_utc_ns) {

@@ -28,9 +28,9 @@ class LabelStore {
   /// labelled_by}]}` by time; ids are texts, since JavaScript's numbers do not hold them.
   nlohmann::ordered_json state() const;
 
-  /// What replay() of evaluator/story/replay.js plays of a kick of state(), by its place, as JSON: what robots
+  /// What replay() of evaluator/timeline/replay.js plays of a kick of state(), by its place, as JSON: what robots
   /// saw, without a simulator's truth, which nobody on a field could label by. Throws LabelRefused where there is none.
-  std::string story(std::size_t place) const;
+  std::string timeline(std::size_t place) const;
 
   /// `{kick_id, session_id, robot, outcome, who, note}`, outcome null: the label is withdrawn. What is accepted is in
   /// the log when it returns. Throws LabelRefused where it makes no sense, std::runtime_error where the log refuses it.
@@ -41,8 +41,8 @@ class LabelStore {
   log::Additions additions_;
   mutable std::mutex mutex_;
   std::vector<evaluator::NamedKick> kicks_;
-  std::vector<std::int64_t> utc_ms_;  // of each
-  std::vector<std::string> stories_;  // of each, as JSON
+  std::vector<std::int64_t> utc_ms_;    // of each
+  std::vector<std::string> timelines_;  // of each, as JSON
 };
 
 }  // namespace trivela::pages

@@ -30,7 +30,7 @@ void note_silences(const SceneState& state, Alarms& alarms) {
                                                   : fmt::format("robot {}: no {} is received any more", id, topic);
     }
   }
-  if (!state.robots.empty() && !state.streams.was_heard(std::string{bus::meta<msg::Referee>::topic}))
+  if (!state.robots.empty() && !state.streams.was_received(std::string{bus::meta<msg::Referee>::topic}))
     alarms["referee"] = "no referee has been received";
 }
 

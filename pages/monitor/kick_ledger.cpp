@@ -10,7 +10,7 @@ namespace trivela::pages {
 namespace {
 
 bool is_waited_for(const KnownKick& kick, const LedgerNow& now) {
-  if (now.over || now.heard_ns - kick.heard_ns > kSilenceTimeout_ns) return false;
+  if (now.over || now.received_ns - kick.received_ns > kSilenceTimeout_ns) return false;
   const auto robot = now.robots_t_ns.find(kick.robot_id);
   return !kick.decided || robot == now.robots_t_ns.end() || robot->second - kick.decided->t_ns <= kOutcomeTimeout_ns;
 }
@@ -51,7 +51,7 @@ KickFate fate_of(const KnownKick& kick, const LedgerNow& now) {
   }
 }
 
-KnownKick* KickLedger::kick_of(std::uint8_t robot_id, std::int64_t kick_id, std::int64_t heard_ns) {
+KnownKick* KickLedger::kick_of(std::uint8_t robot_id, std::int64_t kick_id, std::int64_t received_ns) {
   if (robot_id == 0 || kick_id <= 0) return nullptr;
   const auto known = places_.find({robot_id, kick_id});
   if (known != places_.end()) return &kicks_[known->second];
@@ -63,7 +63,7 @@ KnownKick* KickLedger::kick_of(std::uint8_t robot_id, std::int64_t kick_id, std:
   KnownKick& kick = kicks_.emplace_back();
   kick.kick_id = kick_id;
   kick.robot_id = robot_id;
-  kick.heard_ns = heard_ns;
+  kick.received_ns = received_ns;
   return &kick;
 }
 
@@ -80,10 +80,10 @@ bool KickLedger::goal_counts(const msg::KickDecision& decision) {
   return !(rules_.carry_limit_m > 0.0 && std::hypot(ball.x_m - taken.x_m, ball.y_m - taken.y_m) > rules_.carry_limit_m);
 }
 
-void KickLedger::hear(const msg::KickDecision& decision, std::int64_t heard_ns) {
+void KickLedger::receive(const msg::KickDecision& decision, std::int64_t received_ns) {
   const bool counts = goal_counts(decision);
   if (!decision.fire) return;
-  KnownKick* const kick = kick_of(decision.robot_id, decision.kick_id, heard_ns);
+  KnownKick* const kick = kick_of(decision.robot_id, decision.kick_id, received_ns);
   if (kick == nullptr || (kick->decided && kick->decided->seq <= decision.seq)) return;
   kick->decided = KnownKick::Decided{.seq = decision.seq,
                                      .t_ns = decision.t_ns,
@@ -95,14 +95,14 @@ void KickLedger::hear(const msg::KickDecision& decision, std::int64_t heard_ns) 
                                      .goal_counts = counts};
 }
 
-void KickLedger::hear(const msg::KickReceipt& receipt, std::int64_t heard_ns) {
-  KnownKick* const kick = kick_of(receipt.robot_id, receipt.kick_id, heard_ns);
+void KickLedger::receive(const msg::KickReceipt& receipt, std::int64_t received_ns) {
+  KnownKick* const kick = kick_of(receipt.robot_id, receipt.kick_id, received_ns);
   if (kick == nullptr || (kick->answered && !outweighs(receipt, *kick->answered))) return;
   kick->answered = KnownKick::Answered{receipt.t_ns, receipt.seq, receipt.accepted, receipt.refusal};
 }
 
-void KickLedger::hear(const msg::KickOutcome& outcome, std::int64_t heard_ns) {
-  KnownKick* const kick = kick_of(outcome.robot_id, outcome.kick_id, heard_ns);
+void KickLedger::receive(const msg::KickOutcome& outcome, std::int64_t received_ns) {
+  KnownKick* const kick = kick_of(outcome.robot_id, outcome.kick_id, received_ns);
   if (kick == nullptr || (kick->ended && kick->ended->seq >= outcome.seq)) return;
   std::optional<bool> saved;
   if (outcome.outcome == msg::OUTCOME_ON_TARGET && std::isfinite(outcome.p_saved))

@@ -10,7 +10,7 @@
 
 #include "evaluator/stats/counts/counts.hpp"
 #include "idl/messages.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::pages {
 
@@ -36,8 +36,8 @@ struct KnownKick {
     std::int64_t t_ns = 0;
     PolicyLabel policy{};
     double distance_m = 0.0;
-    kicking::Maybe power;
-    kicking::Maybe p_on_target;
+    kicking::OptionalDouble power;
+    kicking::OptionalDouble p_on_target;
     std::uint8_t kick_kind = 0;  ///< of the robot's kinds of kick, in the order of its file
     bool goal_counts = true;     ///< by the rules, if the ball goes in
   };
@@ -50,14 +50,14 @@ struct KnownKick {
   struct Ended {
     std::uint64_t seq = 0;
     msg::Outcome outcome{};
-    std::optional<bool> saved;  ///< of one on target: a keeper stopped it; none: not known
-    kicking::Maybe x_m;         ///< ball centre at the goal line, in F
-    kicking::Maybe z_m;
+    std::optional<bool> saved;    ///< of one on target: a keeper stopped it; none: not known
+    kicking::OptionalDouble x_m;  ///< ball centre at the goal line, in F
+    kicking::OptionalDouble z_m;
   };
 
   std::int64_t kick_id = 0;
   std::uint8_t robot_id = 0;
-  std::int64_t heard_ns = 0;  ///< the first word of it, by the listener's clock
+  std::int64_t received_ns = 0;  ///< the first word of it, by the listener's clock
   std::optional<Decided> decided;
   std::optional<Answered> answered;
   std::optional<Ended> ended;
@@ -65,7 +65,7 @@ struct KnownKick {
 
 /// Now: by the listener's clock, and as far as each robot's own messages have come.
 struct LedgerNow {
-  std::int64_t heard_ns = 0;
+  std::int64_t received_ns = 0;
   std::map<std::uint8_t, std::int64_t> robots_t_ns{};
   bool over = false;  ///< nothing more comes
 };
@@ -105,9 +105,9 @@ class KickLedger {
 
   explicit KickLedger(const GoalRules& rules = {}) : rules_(rules) {}
 
-  void hear(const msg::KickDecision& decision, std::int64_t heard_ns);
-  void hear(const msg::KickReceipt& receipt, std::int64_t heard_ns);
-  void hear(const msg::KickOutcome& outcome, std::int64_t heard_ns);
+  void receive(const msg::KickDecision& decision, std::int64_t received_ns);
+  void receive(const msg::KickReceipt& receipt, std::int64_t received_ns);
+  void receive(const msg::KickOutcome& outcome, std::int64_t received_ns);
 
   /// By policy; under none those whose decision was not heard.
   std::map<std::optional<PolicyLabel>, KickTally> tallies(const LedgerNow& now) const;
@@ -126,7 +126,7 @@ class KickLedger {
     bool held = false;            // in play; until then it may be laid anywhere
   };
   bool goal_counts(const msg::KickDecision& decision);
-  KnownKick* kick_of(std::uint8_t robot_id, std::int64_t kick_id, std::int64_t heard_ns);
+  KnownKick* kick_of(std::uint8_t robot_id, std::int64_t kick_id, std::int64_t received_ns);
 
   GoalRules rules_;
   std::map<std::uint8_t, Taken> taken_;  // by robot: where its possession began

@@ -48,11 +48,11 @@ MatchFeed::MatchFeed(const bus::DomainConfig& domain, bool lockstep, SceneSettin
     : scene_(std::move(settings)), broadcast_(broadcast), participant_(join(domain, lockstep)), census_(participant_) {
   bus::for_each_message([this]<class T>() {
     if constexpr (MatchScene::listens_to<T>()) {
-      const auto hear = [this](const T& sample, const bus::SampleInfo& info) {
+      const auto receive = [this](const T& sample, const bus::SampleInfo& info) {
         const std::lock_guard lock{mutex_};
-        scene_.hear(sample, info.writer, clock_ns());
+        scene_.receive(sample, info.writer, clock_ns());
       };
-      ears_.push_back(std::make_unique<monitor::StreamSubscriber<T>>(participant_, hear, is_said_once<T>()));
+      subscribers_.push_back(std::make_unique<monitor::StreamSubscriber<T>>(participant_, receive, is_said_once<T>()));
     }
   });
   thread_ = std::thread([this] { publish(); });
@@ -81,7 +81,7 @@ void MatchFeed::take_census() {
     const std::lock_guard lock{mutex_};
     scene_.note_members(std::move(nodes), simulated_by(census));
   }
-  for (const auto& ear : ears_) ear->keep_hearing();
+  for (const auto& subscriber : subscribers_) subscriber->keep_hearing();
 }
 
 void MatchFeed::publish() {

@@ -42,7 +42,7 @@ class MatchFeed {
   Broadcast& broadcast_;
   bus::Participant participant_;
   bus::CensusTaker census_;
-  std::vector<std::unique_ptr<monitor::PassiveSubscriber>> ears_;
+  std::vector<std::unique_ptr<monitor::PassiveSubscriber>> subscribers_;
   std::mutex leaving_mutex_;
   std::condition_variable left_;
   bool leaving_ = false;

@@ -60,34 +60,34 @@ void MatchScene::look(std::int64_t now_ns) {
 }
 
 void MatchScene::take(const msg::WorldState& world, std::int64_t now_ns) {
-  state_.robots[world.robot_id].world.hear(world, now_ns);
+  state_.robots[world.robot_id].world.receive(world, now_ns);
 }
 
 void MatchScene::take(const msg::KickDecision& decision, std::int64_t now_ns) {
   RobotView& robot = state_.robots[decision.robot_id];
-  robot.decision.hear(decision, now_ns);
-  if (decision.fire) robot.fired.hear(decision, now_ns);
-  state_.kicks.hear(decision, now_ns);
+  robot.decision.receive(decision, now_ns);
+  if (decision.fire) robot.fired.receive(decision, now_ns);
+  state_.kicks.receive(decision, now_ns);
 }
 
-void MatchScene::take(const msg::KickReceipt& receipt, std::int64_t now_ns) { state_.kicks.hear(receipt, now_ns); }
+void MatchScene::take(const msg::KickReceipt& receipt, std::int64_t now_ns) { state_.kicks.receive(receipt, now_ns); }
 
-void MatchScene::take(const msg::KickOutcome& outcome, std::int64_t now_ns) { state_.kicks.hear(outcome, now_ns); }
+void MatchScene::take(const msg::KickOutcome& outcome, std::int64_t now_ns) { state_.kicks.receive(outcome, now_ns); }
 
 void MatchScene::take(const msg::KickerDrift& drift, std::int64_t now_ns) {
-  state_.robots[drift.robot_id].drift.hear(drift, now_ns);
+  state_.robots[drift.robot_id].drift.receive(drift, now_ns);
 }
 
 void MatchScene::take(const msg::KickerEstimate& estimate, std::int64_t now_ns) {
-  state_.robots[estimate.robot_id].estimate.hear(estimate, now_ns);
+  state_.robots[estimate.robot_id].estimate.receive(estimate, now_ns);
 }
 
 void MatchScene::take(const msg::KickerStatus& status, std::int64_t now_ns) {
-  state_.robots[status.robot_id].kicker.hear(status, now_ns);
+  state_.robots[status.robot_id].kicker.receive(status, now_ns);
 }
 
 void MatchScene::take(const msg::DeviceKicker& device, std::int64_t now_ns) {
-  state_.robots[device.robot_id].device.hear(device, now_ns);
+  state_.robots[device.robot_id].device.receive(device, now_ns);
   if (device.emulated) state_.simulated.insert("an emulated kicker");
 }
 
@@ -107,13 +107,13 @@ void MatchScene::take(const msg::DeviceEmulated& word, std::int64_t) {
 }
 
 void MatchScene::take(const msg::FlightFrame& frame, std::int64_t now_ns) {
-  state_.robots[frame.robot_id].flight.hear(frame, now_ns);
+  state_.robots[frame.robot_id].flight.receive(frame, now_ns);
 }
 
-void MatchScene::take(const msg::Referee& referee, std::int64_t now_ns) { state_.referee.hear(referee, now_ns); }
+void MatchScene::take(const msg::Referee& referee, std::int64_t now_ns) { state_.referee.receive(referee, now_ns); }
 
 LedgerNow ledger_now(const SceneState& state, std::int64_t now_ns) {
-  LedgerNow now{.heard_ns = now_ns, .over = state.over};
+  LedgerNow now{.received_ns = now_ns, .over = state.over};
   for (const auto& [id, robot] : state.robots) {
     if (robot.world.sample) now.robots_t_ns[id] = robot.world.sample->t_ns;
   }

@@ -88,9 +88,9 @@ class MatchScene {
   }
 
   template <bus::Message T>
-  void hear(const T& sample, std::uint64_t writer, std::int64_t now_ns) {
+  void receive(const T& sample, std::uint64_t writer, std::int64_t now_ns) {
     if (!has_place(sample.robot_id)) return;
-    state_.streams.heard(streams_.at(std::string{bus::meta<T>::topic}), sample.robot_id, sample.seq, writer, now_ns);
+    state_.streams.received(streams_.at(std::string{bus::meta<T>::topic}), sample.robot_id, sample.seq, writer, now_ns);
     take(sample, now_ns);
   }
 

@@ -12,15 +12,15 @@ namespace trivela::pages {
 template <class T>
 struct Latest {
   std::optional<T> sample;
-  std::int64_t heard_ns = 0;
+  std::int64_t received_ns = 0;
 
-  void hear(const T& heard, std::int64_t now_ns) {
-    sample = heard;
-    heard_ns = now_ns;
+  void receive(const T& received, std::int64_t now_ns) {
+    sample = received;
+    received_ns = now_ns;
   }
   /// Where it is no older than `age_ns`.
   const T* within(std::int64_t age_ns, std::int64_t now_ns) const {
-    return sample && now_ns - heard_ns <= age_ns ? &*sample : nullptr;
+    return sample && now_ns - received_ns <= age_ns ? &*sample : nullptr;
   }
 };
 

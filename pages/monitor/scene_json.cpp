@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "evaluator/story/decided_segments.hpp"
+#include "evaluator/timeline/decided_segments.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "pages/monitor/kick_ledger.hpp"
 #include "pages/monitor/match_feed.hpp"

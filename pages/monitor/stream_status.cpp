@@ -16,19 +16,19 @@ std::size_t StreamStatus::add(const std::string& topic, double period_s) {
   if (period_s > 0.0) {
     const double watched_s = std::max(period_s, kShortestSilence_s / static_cast<double>(robot::kSilentPeriods));
     stream.watched = watch_.add(kicking::nanoseconds(watched_s));
-    stream_of_voice_.push_back(streams_.size());
+    stream_of_edge_.push_back(streams_.size());
   }
   streams_.push_back(std::move(stream));
   return streams_.size() - 1;
 }
 
-void StreamStatus::heard(std::size_t stream, std::uint8_t robot_id, std::optional<std::uint64_t> seq,
-                         std::uint64_t writer, std::int64_t now_ns) {
-  Stream& heard = streams_[stream];
-  heard.robots.insert(robot_id);
-  if (heard.watched) watch_.heard(*heard.watched, robot_id, now_ns);
+void StreamStatus::received(std::size_t stream, std::uint8_t robot_id, std::optional<std::uint64_t> seq,
+                            std::uint64_t writer, std::int64_t now_ns) {
+  Stream& received = streams_[stream];
+  received.robots.insert(robot_id);
+  if (received.watched) watch_.received(*received.watched, robot_id, now_ns);
   if (!seq) return;
-  const auto finding = heard.numbers.see(robot_id, *seq, writer, kicking::seconds(now_ns));
+  const auto finding = received.numbers.see(robot_id, *seq, writer, kicking::seconds(now_ns));
   const std::int64_t missed = finding.believed ? finding.gap - (finding.filled ? 1 : 0) : 0;
   if (missed == 0) return;
   missed_ += missed;
@@ -38,7 +38,7 @@ void StreamStatus::heard(std::size_t stream, std::uint8_t robot_id, std::optiona
 
 void StreamStatus::look(std::int64_t now_ns) {
   for (const robot::SilenceEdge& edge : watch_.look(now_ns)) {
-    const std::pair key{edge.robot_id, stream_of_voice_[edge.stream]};
+    const std::pair key{edge.robot_id, stream_of_edge_[edge.stream]};
     if (edge.to_ns) {
       silent_.erase(key);
     } else {
@@ -67,7 +67,7 @@ bool StreamStatus::all_silent(std::uint8_t robot_id) const {
   return periodic > 0 && std::ssize(silent(robot_id)) == periodic;
 }
 
-bool StreamStatus::was_heard(const std::string& topic) const {
+bool StreamStatus::was_received(const std::string& topic) const {
   return std::ranges::any_of(streams_,
                              [&](const Stream& stream) { return stream.topic == topic && !stream.robots.empty(); });
 }

@@ -31,8 +31,8 @@ class StreamStatus {
   std::size_t add(const std::string& topic, double period_s);
 
   /// `seq`: none where the message has no number.
-  void heard(std::size_t stream, std::uint8_t robot_id, std::optional<std::uint64_t> seq, std::uint64_t writer,
-             std::int64_t now_ns);
+  void received(std::size_t stream, std::uint8_t robot_id, std::optional<std::uint64_t> seq, std::uint64_t writer,
+                std::int64_t now_ns);
 
   void look(std::int64_t now_ns);
 
@@ -42,7 +42,7 @@ class StreamStatus {
   std::vector<std::string> silent(std::uint8_t robot_id) const;
   /// It has streams with a period, and all of them are silent.
   bool all_silent(std::uint8_t robot_id) const;
-  bool was_heard(const std::string& topic) const;
+  bool was_received(const std::string& topic) const;
 
   /// Messages that were missed since kNews_ns, by robot and topic.
   std::map<std::pair<std::uint8_t, std::string>, std::int64_t> missed_lately(std::int64_t now_ns) const;
@@ -64,7 +64,7 @@ class StreamStatus {
   };
 
   std::vector<Stream> streams_;
-  std::vector<std::size_t> stream_of_voice_;
+  std::vector<std::size_t> stream_of_edge_;
   robot::SilenceWatch watch_{kStep_ns};
   std::set<std::pair<std::uint8_t, std::size_t>> silent_;  // robot and stream
   std::deque<Missed> lately_;

@@ -39,10 +39,10 @@ std::optional<std::string> GoalWatch::see(const msg::WorldState& world, const ms
   follow(world);
   if (referee == nullptr) return std::nullopt;
   std::optional<std::string> sentence;
-  if (heard_ && referee->goals_own > heard_->goals_own) sentence = doubt(1.0, world.t_ns);
-  if (heard_ && referee->goals_other > heard_->goals_other) sentence = doubt(-1.0, world.t_ns);
-  if (heard_ && referee->playing && !heard_->playing) crossing_.reset();
-  heard_ = *referee;
+  if (received_ && referee->goals_own > received_->goals_own) sentence = doubt(1.0, world.t_ns);
+  if (received_ && referee->goals_other > received_->goals_other) sentence = doubt(-1.0, world.t_ns);
+  if (received_ && referee->playing && !received_->playing) crossing_.reset();
+  received_ = *referee;
   return sentence;
 }
 

@@ -38,7 +38,7 @@ class GoalWatch {
   kicking::Goal goal_;
   std::optional<Sight> inside_;    // the last sight of the ball between the goal lines
   std::optional<Sight> crossing_;  // where it crossed one of them since the start of play
-  std::optional<msg::Referee> heard_;
+  std::optional<msg::Referee> received_;
 };
 
 }  // namespace trivela::robot

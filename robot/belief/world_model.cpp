@@ -19,7 +19,7 @@ const TurnedPose kOrigin;
 constexpr double kSeen_m = 0.15;  // standard deviation of a robot in a picture; match log of 2016: 0.14 m an axis
 
 /// Neither NaN nor farther from 0 than any robot comes.
-bool sound(const msg::Odometry& odometry) {
+bool healthy(const msg::Odometry& odometry) {
   constexpr double kFastest = 1e3;   // m/s, rad/s
   constexpr double kFarthest = 1e6;  // m, rad, and their variances
   const auto within = [](double limit, std::initializer_list<double> numbers) {
@@ -59,11 +59,11 @@ std::uint32_t WorldModel::count(std::int64_t t_ns, const msg::Referee& word, boo
                            .kick_id = kick_id_});
 }
 
-void WorldModel::hear(const msg::Referee& word) { count(word.t_ns, word, false); }
+void WorldModel::receive(const msg::Referee& word) { count(word.t_ns, word, false); }
 
 msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::VisionFrame* frame,
                                    const msg::Referee* referee, const msg::KickerStatus* kicker) {
-  const bool believed = sound(odometry);
+  const bool believed = healthy(odometry);
   if (believed) {
     const double dt_s = kicking::seconds(odometry.t_ns - twist_t_ns_);
     const double gain = dt_s <= 0.0 ? 1.0 : velocity_decay_.gain(dt_s);

@@ -27,7 +27,7 @@ class WorldModel {
         velocity_decay_(settings.velocity_time_constant_s) {}
 
   /// The referee's word in a cycle in which the robot is not asked for its belief.
-  void hear(const msg::Referee& word);
+  void receive(const msg::Referee& word);
 
   /// The belief at the instant of `odometry`. `frame` is the newest vision frame, nullptr where there is none, and
   /// counts once; `referee` its latest command: pictures older than odometry correct the past, so that the pose holds

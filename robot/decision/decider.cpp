@@ -120,7 +120,7 @@ const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::Ki
 
 void Decider::learn(const msg::KickerEstimate& estimate) {
   const kicking::KickerEstimate learned = estimate_of(estimate);
-  if (!kicking::sound(learned)) return;
+  if (!kicking::valid(learned)) return;
   corrected_ = kicking::corrected(model_, learned);
   estimate_ = static_cast<std::uint32_t>(estimate.seq);
 }

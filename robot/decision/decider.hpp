@@ -53,7 +53,7 @@ class Decider {
           std::uint32_t session, std::optional<GroundTruthPolicy> oracle = std::nullopt);
 
   /// What the referee says, before the cycle that hears it: when a set piece of ours is to be taken.
-  void hear(const msg::Referee& word) { set_piece_.hear(word); }
+  void receive(const msg::Referee& word) { set_piece_.receive(word); }
 
   /// Goes by what was learned of the kicker from the next cycle on, where it is sound().
   /// Test drives, which measure the kicker, do not.

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "kicking/geometry/time.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -24,11 +24,11 @@ constexpr std::array kWireNames = [] {
 static_assert(bus::has_labels<msg::Policy>(kWireNames));
 static_assert(bus::has_labels<msg::DecisionReason>(kicking::kReasonNames));
 
-constexpr bool wire(bool value) { return value; }
-constexpr double wire(double value) { return value; }
-constexpr std::uint8_t wire(std::uint8_t value) { return value; }
-constexpr double wire(kicking::Maybe value) { return value.wire(); }
-msg::DecisionReason wire(kicking::Reason reason) { return to_wire(reason); }
+constexpr bool to_message(bool value) { return value; }
+constexpr double to_message(double value) { return value; }
+constexpr std::uint8_t to_message(std::uint8_t value) { return value; }
+constexpr double to_message(kicking::OptionalDouble value) { return value.to_message(); }
+msg::DecisionReason to_message(kicking::Reason reason) { return to_wire(reason); }
 
 /// Place of the message's field of that name; their number: it has none.
 template <class Message>
@@ -46,7 +46,7 @@ void copy_field(const kicking::PolicyOutput& output, Message& out) {
   constexpr auto& field = std::get<I>(kicking::kRecordedFields);
   constexpr std::size_t place = place_of<Message>(field.name);
   if constexpr (place < bus::meta<Message>::fields.size())
-    out.*std::get<place>(bus::meta<Message>::members) = wire(std::invoke(field.get, output));
+    out.*std::get<place>(bus::meta<Message>::members) = to_message(std::invoke(field.get, output));
 }
 
 /// What the message has of the output, by the names of the fields.

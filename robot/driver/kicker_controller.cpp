@@ -32,7 +32,8 @@ KickerController::KickerController(const config::KickerDriver& settings, double 
 
 void KickerController::began(std::int64_t now_t_ns) { gate_.rest_from(now_t_ns + cycle_ns_); }
 
-msg::KickerStatus KickerController::status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns) {
+msg::KickerStatus KickerController::status(const hal::KickerSample& sample, RefereePermission says,
+                                           std::int64_t now_t_ns) {
   over_voltage_ = over_voltage(sample) || (over_voltage_ && sample.armed);  // until somebody opens the switch
   const bool stuck = voltage_.stuck(sample, stand_.state == msg::STATE_CHARGING);
   const bool charger = sample.fault == hal::KickerFault::kNone && (stuck || over_voltage_);
@@ -46,7 +47,7 @@ msg::KickerStatus KickerController::status(const hal::KickerSample& sample, Refe
   out.t_ns = sample.t_ns;
   out.charge = sample.charge;
   out.charge_modelled = sample.charge_modelled;
-  out.voltage_v = sample.voltage_v.wire();
+  out.voltage_v = sample.voltage_v.to_message();
   out.armed = gate_.armed();
   out.ready = stand_.state == msg::STATE_READY;
   out.fault = static_cast<msg::KickerFault>(fault);
@@ -61,8 +62,8 @@ msg::KickerStatus KickerController::status(const hal::KickerSample& sample, Refe
 
 /// The facts by now as events, those that forbid first: what is so already changes nothing.
 void KickerController::advance(std::int64_t now_t_ns) {
-  const bool sound = gate_.sound(now_t_ns);
-  happened(over_voltage_ ? KickerEvent::kOverVoltage : sound ? KickerEvent::kSound : KickerEvent::kFault);
+  const bool healthy = gate_.healthy(now_t_ns);
+  happened(over_voltage_ ? KickerEvent::kOverVoltage : healthy ? KickerEvent::kHealthy : KickerEvent::kFault);
   if (decision_ == DecisionNode::kLost) happened(KickerEvent::kDecisionLost);
   const bool armed = gate_.armed() && decision_ == DecisionNode::kThere;
   happened(armed ? KickerEvent::kArmed : KickerEvent::kDisarmed);

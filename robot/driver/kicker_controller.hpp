@@ -30,7 +30,7 @@ class KickerController {
   /// fired before min_interval_s after that.
   void began(std::int64_t now_t_ns);
 
-  msg::KickerStatus status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns);
+  msg::KickerStatus status(const hal::KickerSample& sample, RefereePermission says, std::int64_t now_t_ns);
 
   /// Judges the order; where it is accepted, the device is to be given receipt.power at receipt.fired_t_ns, which is
   /// now or the order's own instant if that lies ahead. The steady clock's fields are its owner's.
@@ -50,7 +50,7 @@ class KickerController {
   hal::ChargeCommand end();
 
   /// What the referee's word permits by now.
-  void referee(RefereeSays says) { gate_.referee(says); }
+  void referee(RefereePermission says) { gate_.referee(says); }
 
   /// A second receipt, which refuses an accepted order after all: its instant lies ahead, and by now the game stands or
   /// the device is not well. The device is to be told. To be asked after every status() and referee().

@@ -24,14 +24,14 @@ enum class KickerEvent {
   kRested,        ///< the least interval after a shot has passed
   kFault,         ///< of the device or its charger, or no status comes any more
   kOverVoltage,   ///< more than the capacitor may hold was measured
-  kSound,         ///< no fault is left
+  kHealthy,       ///< no fault is left
   kDecisionLost,  ///< the decision node has been gone for 0.2 s
   kEnd,           ///< this program ends
 };
 inline constexpr std::array kKickerEvents{KickerEvent::kArmed,       KickerEvent::kDisarmed, KickerEvent::kCharged,
                                           KickerEvent::kUncharged,   KickerEvent::kAccepted, KickerEvent::kCalledOff,
                                           KickerEvent::kShotOver,    KickerEvent::kRested,   KickerEvent::kFault,
-                                          KickerEvent::kOverVoltage, KickerEvent::kSound,    KickerEvent::kDecisionLost,
+                                          KickerEvent::kOverVoltage, KickerEvent::kHealthy,  KickerEvent::kDecisionLost,
                                           KickerEvent::kEnd};
 
 /// What the driver is about, and what it tells a board that can be told.
@@ -74,7 +74,7 @@ constexpr KickerMachineState next(KickerMachineState stand, KickerEvent event) {
     case msg::STATE_COOLING:
       return event == KickerEvent::kRested ? kCharging : stand;
     case msg::STATE_FAULT:
-      return event == KickerEvent::kSound ? KickerMachineState{msg::STATE_OFF, stand.word} : stand;
+      return event == KickerEvent::kHealthy ? KickerMachineState{msg::STATE_OFF, stand.word} : stand;
   }
   return stand;
 }

@@ -22,7 +22,7 @@ bool same(const msg::KickOrder& a, const msg::KickOrder& b) {
 
 }  // namespace
 
-bool OrderGate::sound(std::int64_t now_t_ns) const {
+bool OrderGate::healthy(std::int64_t now_t_ns) const {
   if (!sample_ || sample_->fault != hal::KickerFault::kNone) return false;
   const double age_s = seconds_from(sample_->t_ns, now_t_ns);
   return age_s <= settings_.link_timeout_s && age_s >= -settings_.future_tolerance_s;
@@ -53,17 +53,17 @@ void OrderGate::remember(const msg::KickOrder& order, bool accepted) {
 }
 
 bool OrderGate::ready(std::int64_t now_t_ns) const {
-  return sound(now_t_ns) && armed() && decision_there_ && !under_way(now_t_ns) && rested(now_t_ns) && charged();
+  return healthy(now_t_ns) && armed() && decision_there_ && !under_way(now_t_ns) && rested(now_t_ns) && charged();
 }
 
 msg::Refusal OrderGate::disarmed() const {
   const bool switched_on = sample_ && sample_->armed;
-  return switched_on && referee_ == RefereeSays::kSilent ? msg::REFUSAL_REFEREE_SILENT : msg::REFUSAL_UNARMED;
+  return switched_on && referee_ == RefereePermission::kSilent ? msg::REFUSAL_REFEREE_SILENT : msg::REFUSAL_UNARMED;
 }
 
 msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) const {
   if (by == OrderBy::kUnauthorised) return msg::REFUSAL_UNAUTHORISED;
-  if (sample_ && !sound(now_t_ns)) return msg::REFUSAL_FAULT;
+  if (sample_ && !healthy(now_t_ns)) return msg::REFUSAL_FAULT;
   const bool kind_known = order.kick_kind < powers_.size();
   if (!kind_known || !powers_[order.kick_kind].contains(order.power) || order.kick_id <= 0)
     return msg::REFUSAL_OUT_OF_RANGE;
@@ -101,8 +101,8 @@ msg::Refusal OrderGate::judge(const msg::KickOrder& order, std::int64_t now_t_ns
 }
 
 std::optional<OrderGate::Withdrawal> OrderGate::withdraw(std::int64_t now_t_ns) {
-  if (!accepted_ || accepted_->fire_t_ns <= now_t_ns || (sound(now_t_ns) && armed())) return std::nullopt;
-  return drop(accepted_->kick_id, sound(now_t_ns) ? disarmed() : msg::REFUSAL_FAULT);
+  if (!accepted_ || accepted_->fire_t_ns <= now_t_ns || (healthy(now_t_ns) && armed())) return std::nullopt;
+  return drop(accepted_->kick_id, healthy(now_t_ns) ? disarmed() : msg::REFUSAL_FAULT);
 }
 
 std::optional<OrderGate::Withdrawal> OrderGate::drop(std::int64_t kick_id, msg::Refusal reason) {

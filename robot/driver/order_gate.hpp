@@ -54,7 +54,7 @@ class OrderGate {
     sample_ = sample;
     sample_->fault = fault;
   }
-  void referee(RefereeSays says) { referee_ = says; }
+  void referee(RefereePermission says) { referee_ = says; }
   /// Whether the robot's own decision node is known to live.
   void decision_node(bool there) { decision_there_ = there; }
 
@@ -79,10 +79,10 @@ class OrderGate {
   void fired(std::int64_t kick_id, std::int64_t t_ns);
 
   /// Switch on, device heard of, game playing.
-  bool armed() const { return sample_ && sample_->armed && referee_ == RefereeSays::kPlay; }
+  bool armed() const { return sample_ && sample_->armed && referee_ == RefereePermission::kPlay; }
 
   /// The device has no fault, and its status is fresh.
-  bool sound(std::int64_t now_t_ns) const;
+  bool healthy(std::int64_t now_t_ns) const;
   /// The capacitor holds what a kick needs. A charge above the whole is a device's that cannot be believed.
   bool charged() const {
     return sample_ && sample_->charge >= settings_.min_charge_ratio && sample_->charge <= kMostCharge;
@@ -110,7 +110,7 @@ class OrderGate {
   std::vector<kicking::Range> powers_;
   double cycle_s_;
   std::optional<hal::KickerSample> sample_;
-  RefereeSays referee_ = RefereeSays::kNothing;
+  RefereePermission referee_ = RefereePermission::kNothing;
   bool decision_there_ = true;
   std::optional<std::int64_t> last_fire_t_ns_;
   struct Accepted {

@@ -68,18 +68,18 @@ void KickLearning::begin_with(const kicking::KickerEstimate& earlier) {
   copy(learner_.estimate(), message_);
 }
 
-void KickLearning::hear(const msg::KickDecision& decision) {
+void KickLearning::receive(const msg::KickDecision& decision) {
   if (decision.fire) keep(decisions_, decision);
 }
 
-void KickLearning::hear(const msg::KickReceipt& receipt) {
+void KickLearning::receive(const msg::KickReceipt& receipt) {
   if (receipt.accepted) keep(receipts_, receipt);
 }
 
 std::optional<msg::KickerEstimate> KickLearning::seen(const msg::KickOutcome& outcome, std::int64_t t_ns) {
   const auto decision = std::ranges::find(decisions_, outcome.kick_id, &msg::KickDecision::kick_id);
   const auto receipt = std::ranges::find(receipts_, outcome.kick_id, &msg::KickReceipt::kick_id);
-  const kicking::Maybe speed_mps = outcome.flight_speed_mps;
+  const kicking::OptionalDouble speed_mps = outcome.flight_speed_mps;
   if (decision == decisions_.end() || receipt == receipts_.end() || !speed_mps) return std::nullopt;
   if (receipt->kick_kind != 0) return std::nullopt;  // a ball on the floor shows neither its speed nor its angle
   const kicking::Twist twist{decision->vx_mps, decision->vy_mps, decision->omega_radps};

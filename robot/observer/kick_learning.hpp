@@ -21,8 +21,8 @@ class KickLearning {
   void begin_with(const kicking::KickerEstimate& earlier);
 
   /// Kept until the outcome is known, in whatever order they come.
-  void hear(const msg::KickDecision& decision);
-  void hear(const msg::KickReceipt& receipt);
+  void receive(const msg::KickDecision& decision);
+  void receive(const msg::KickReceipt& receipt);
 
   /// The estimate after an outcome of cycle t_ns; none: it says nothing of the kicker, or of no kick that is known.
   std::optional<msg::KickerEstimate> seen(const msg::KickOutcome& outcome, std::int64_t t_ns);

@@ -17,12 +17,12 @@ msg::KickOutcome message(const TrackedShot& shot) {
   out.kick_id = shot.kick_id;
   out.outcome = static_cast<msg::Outcome>(shot.verdict.outcome);
   out.on_target = shot.verdict.outcome == kicking::Outcome::kOnTarget;
-  out.x_cross_m = shot.verdict.x_cross_m.wire();
-  out.z_cross_m = shot.verdict.z_cross_m.wire();
-  out.sd_cross_m = shot.verdict.sd_cross_m.wire();
+  out.x_cross_m = shot.verdict.x_cross_m.to_message();
+  out.z_cross_m = shot.verdict.z_cross_m.to_message();
+  out.sd_cross_m = shot.verdict.sd_cross_m.to_message();
   out.observations = static_cast<std::uint32_t>(shot.sightings);
-  out.exit_speed_mps = shot.verdict.exit_speed_mps.wire();
-  out.exit_elevation_rad = shot.verdict.exit_elevation_rad.wire();
+  out.exit_speed_mps = shot.verdict.exit_speed_mps.to_message();
+  out.exit_elevation_rad = shot.verdict.exit_elevation_rad.to_message();
   const auto& parabola = shot.verdict.parabola;
   out.flight_speed_mps = parabola ? parabola->speed_mps : msg::kNone;
   out.flight_elevation_rad = parabola ? parabola->elevation_rad : msg::kNone;
@@ -34,9 +34,9 @@ msg::KickOutcome message(const TrackedShot& shot) {
   for (std::size_t i = 0; i < std::size(probabilities); ++i)
     *probabilities[i] = shot.verdict.probabilities ? (*shot.verdict.probabilities)[i] : msg::kNone;
   out.bounced = shot.verdict.bounced;
-  out.residual_sd_m = shot.verdict.residual_sd_m.wire();
-  out.release_late_s = shot.verdict.release_late_s.wire();
-  out.p_saved = shot.verdict.p_saved.wire();
+  out.residual_sd_m = shot.verdict.residual_sd_m.to_message();
+  out.release_late_s = shot.verdict.release_late_s.to_message();
+  out.p_saved = shot.verdict.p_saved.to_message();
   return out;
 }
 

@@ -8,7 +8,7 @@
 #include "config/settings.hpp"
 #include "kicking/ballistics/flight.hpp"
 #include "kicking/geometry/goal.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 #include "kicking/outcome/outcome.hpp"
 
 namespace trivela::robot {
@@ -26,16 +26,16 @@ struct FlightParabola {
 struct ShotVerdict {
   kicking::Outcome outcome = kicking::Outcome::kUnknown;
   std::optional<kicking::OutcomeProbabilities> probabilities;  ///< none: not computed
-  kicking::Maybe x_cross_m;                                    ///< ball centre at the goal line, in F
-  kicking::Maybe z_cross_m;
-  kicking::Maybe sd_cross_m;      ///< the larger one of both
-  kicking::Maybe exit_speed_mps;  ///< over ground, of the first sightings
-  kicking::Maybe exit_elevation_rad;
+  kicking::OptionalDouble x_cross_m;                           ///< ball centre at the goal line, in F
+  kicking::OptionalDouble z_cross_m;
+  kicking::OptionalDouble sd_cross_m;      ///< the larger one of both
+  kicking::OptionalDouble exit_speed_mps;  ///< over ground, of the first sightings
+  kicking::OptionalDouble exit_elevation_rad;
   std::optional<FlightParabola> parabola;  ///< none: it was touched on its way, or not seen long enough
   bool bounced = false;                    ///< it touched the floor before the line, or before it was seen last
-  kicking::Maybe residual_sd_m;
-  kicking::Maybe release_late_s;  ///< after release_t_ns of the track, by the flight
-  kicking::Maybe p_saved;         ///< probability that it was on target and a keeper stopped it; none: not computed
+  kicking::OptionalDouble residual_sd_m;
+  kicking::OptionalDouble release_late_s;  ///< after release_t_ns of the track, by the flight
+  kicking::OptionalDouble p_saved;  ///< probability that it was on target and a keeper stopped it; none: not computed
 };
 
 /// How the sightings ended.
@@ -52,11 +52,11 @@ struct ShotTrack {
   std::span<const kicking::Sighting> sightings;  ///< from the expected release on
   FlightEnd end{};
   std::int64_t release_t_ns = 0;
-  std::int64_t end_t_ns = 0;            ///< when it was over; the last sighting or later
-  double expected_speed_mps = 0.0;      ///< over ground, that the kick should have given
-  kicking::Maybe expected_climb_mps{};  ///< the same upwards; none: not known
-  double ball_sd_m = 0.03;              ///< of a sighting
-  double save_ratio = 0.005;            ///< of the balls between posts and bar: a keeper stops them
+  std::int64_t end_t_ns = 0;                     ///< when it was over; the last sighting or later
+  double expected_speed_mps = 0.0;               ///< over ground, that the kick should have given
+  kicking::OptionalDouble expected_climb_mps{};  ///< the same upwards; none: not known
+  double ball_sd_m = 0.03;                       ///< of a sighting
+  double save_ratio = 0.005;                     ///< of the balls between posts and bar: a keeper stops them
 };
 
 /// Weighs the outcomes by their likelihood in the light of the sightings:

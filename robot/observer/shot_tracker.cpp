@@ -19,7 +19,7 @@ constexpr double kBeyond_sd = 4.0;     // sightings beyond the line by this many
 }  // namespace
 
 std::vector<TrackedShot> ShotTracker::release(std::int64_t kick_id, std::int64_t release_t_ns,
-                                              double expected_speed_mps, kicking::Maybe expected_climb_mps) {
+                                              double expected_speed_mps, kicking::OptionalDouble expected_climb_mps) {
   std::vector<TrackedShot> settled;
   if (open_) settled.push_back(settle(FlightEnd::kLost, release_t_ns));
   open_ = Open{kick_id, release_t_ns, expected_speed_mps, expected_climb_mps, release_t_ns, -HUGE_VAL, {}};

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 #include "robot/observer/camera_noise.hpp"
 #include "robot/observer/save_watch.hpp"
 #include "robot/observer/shot_judge.hpp"
@@ -31,7 +31,7 @@ class ShotTracker {
   /// A kick was accepted and leaves at `release_t_ns` with `expected_speed_mps` over ground and `expected_climb_mps`
   /// upwards (none: not known). A shot still open is judged by what was seen of it.
   std::vector<TrackedShot> release(std::int64_t kick_id, std::int64_t release_t_ns, double expected_speed_mps,
-                                   kicking::Maybe expected_climb_mps = std::nullopt);
+                                   kicking::OptionalDouble expected_climb_mps = std::nullopt);
 
   /// One frame; nullopt where the ball was not seen.
   std::vector<TrackedShot> frame(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m);
@@ -47,7 +47,7 @@ class ShotTracker {
     std::int64_t kick_id;
     std::int64_t release_t_ns;
     double expected_speed_mps;
-    kicking::Maybe expected_climb_mps;
+    kicking::OptionalDouble expected_climb_mps;
     std::int64_t seen_t_ns;
     double farthest_y_m;
     std::vector<kicking::Sighting> sightings;

@@ -37,10 +37,11 @@ DriveArbiter::DriveArbiter(config::DriveMode mode, const config::Odometry& timeo
       own_timeout_ns_(kicking::nanoseconds(timeouts.drive_timeout_s)),
       team_timeout_ns_(kicking::nanoseconds(timeouts.team_drive_timeout_s)) {}
 
-bool DriveArbiter::hear(msg::DriveSource source, std::int64_t t_ns, const kicking::Twist& twist, std::int64_t now_ns) {
+bool DriveArbiter::receive(msg::DriveSource source, std::int64_t t_ns, const kicking::Twist& twist,
+                           std::int64_t now_ns) {
   if (!fresh(source, t_ns, now_ns)) return false;
   const bool finite = std::isfinite(twist.vx_mps) && std::isfinite(twist.vy_mps) && std::isfinite(twist.omega_radps);
-  (source == msg::DRIVE_TEAM ? team_ : own_) = Heard{t_ns, finite ? twist : kicking::Twist{}};
+  (source == msg::DRIVE_TEAM ? team_ : own_) = Received{t_ns, finite ? twist : kicking::Twist{}};
   return true;
 }
 
@@ -68,7 +69,7 @@ std::optional<double> DriveArbiter::silence_s(std::int64_t now_ns, const DriveSi
   return kicking::seconds(now_ns - word->t_ns);
 }
 
-const std::optional<DriveArbiter::Heard>& DriveArbiter::last(msg::DriveSource source) const {
+const std::optional<DriveArbiter::Received>& DriveArbiter::last(msg::DriveSource source) const {
   return source == msg::DRIVE_TEAM ? team_ : own_;
 }
 

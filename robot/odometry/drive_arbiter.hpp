@@ -39,7 +39,7 @@ class DriveArbiter {
 
   /// A command of the instant t_ns by one of the two; one that is not finite is standstill. False: it is none, since
   /// t_ns is farther from now_ns than the timeout; the one before goes on.
-  bool hear(msg::DriveSource source, std::int64_t t_ns, const kicking::Twist& twist, std::int64_t now_ns);
+  bool receive(msg::DriveSource source, std::int64_t t_ns, const kicking::Twist& twist, std::int64_t now_ns);
 
   /// Does in_charge() depend on the situation now?
   bool situation_matters(std::int64_t now_ns) const;
@@ -50,19 +50,19 @@ class DriveArbiter {
   std::optional<double> silence_s(std::int64_t now_ns, const DriveSituation& situation) const;
 
  private:
-  struct Heard {
+  struct Received {
     std::int64_t t_ns = 0;
     kicking::Twist twist{};
   };
 
-  const std::optional<Heard>& last(msg::DriveSource source) const;
+  const std::optional<Received>& last(msg::DriveSource source) const;
   bool fresh(msg::DriveSource source, std::int64_t t_ns, std::int64_t now_ns) const;
   bool speaks(msg::DriveSource source, std::int64_t now_ns) const;
 
   config::DriveMode mode_;
   std::int64_t own_timeout_ns_;
   std::int64_t team_timeout_ns_;
-  std::optional<Heard> own_, team_;
+  std::optional<Received> own_, team_;
 };
 
 }  // namespace trivela::robot

@@ -18,15 +18,15 @@ constexpr double msg::Odometry::*kWheels[]{&msg::Odometry::wheel_0_radps, &msg::
 
 std::optional<msg::Odometry> WheelOdometry::update(const hal::WheelSample& sample) {
   constexpr double kFastest_radps = 1e3;  // beyond any motor; what came of more would stay in the pose
-  const auto sound = [](double w) { return std::abs(w) <= kFastest_radps; };
+  const auto healthy = [](double w) { return std::abs(w) <= kFastest_radps; };
   const std::span wheel_radps{sample.wheel_radps.data(), static_cast<std::size_t>(sample.wheel_count)};
-  const bool all_sound = std::all_of(wheel_radps.begin(), wheel_radps.end(), sound);
-  if (!all_sound || sample.wheel_count < kinematics_.wheel_count()) return std::nullopt;
+  const bool all_healthy = std::all_of(wheel_radps.begin(), wheel_radps.end(), healthy);
+  if (!all_healthy || sample.wheel_count < kinematics_.wheel_count()) return std::nullopt;
   if (last_t_ns_ && sample.t_ns <= *last_t_ns_) return std::nullopt;
 
   kicking::Twist twist = kinematics_.twist(wheel_radps);
   double var_omega = variance_.z();
-  if (sample.gyro_radps && sound(*sample.gyro_radps)) {
+  if (sample.gyro_radps && healthy(*sample.gyro_radps)) {
     const double var_gyro = noise_.gyro_sd_radps * noise_.gyro_sd_radps;
     twist.omega_radps = (twist.omega_radps * var_gyro + *sample.gyro_radps * var_omega) / (var_gyro + var_omega);
     var_omega = var_omega * var_gyro / (var_gyro + var_omega);
@@ -45,7 +45,7 @@ std::optional<msg::Odometry> WheelOdometry::update(const hal::WheelSample& sampl
   last_t_ns_ = sample.t_ns;
   for (std::size_t i = 0; i < std::size(kWheels); ++i)
     now_.*kWheels[i] = i < wheel_radps.size() ? wheel_radps[i] : msg::kNone;
-  now_.gyro_radps = sample.gyro_radps.wire();
+  now_.gyro_radps = sample.gyro_radps.to_message();
   now_.vx_mps = twist.vx_mps;
   now_.vy_mps = twist.vy_mps;
   now_.omega_radps = twist.omega_radps;

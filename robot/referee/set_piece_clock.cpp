@@ -6,7 +6,7 @@
 
 namespace trivela::robot {
 
-void SetPieceClock::hear(const msg::Referee& word) {
+void SetPieceClock::receive(const msg::Referee& word) {
   if (!word.playing) {
     began_t_ns_.reset();
   } else if (announced_ && word.restart == msg::RESTART_NONE) {
@@ -16,12 +16,12 @@ void SetPieceClock::hear(const msg::Referee& word) {
   announced_ = word.restart != msg::RESTART_NONE && word.ours;
 }
 
-kicking::Maybe SetPieceClock::left_s(const msg::WorldState& world) {
+kicking::OptionalDouble SetPieceClock::left_s(const msg::WorldState& world) {
   if (!(limit_s_ > 0.0) || !began_t_ns_) return std::nullopt;
   const double left_s = std::min(limit_s_, limit_s_ - kicking::seconds(*began_t_ns_, world.t_ns));
   if (left_s <= 0.0 || (had_ball_ && !world.possession)) began_t_ns_.reset();
   had_ball_ = world.possession;
-  return began_t_ns_ ? kicking::Maybe{left_s} : std::nullopt;
+  return began_t_ns_ ? kicking::OptionalDouble{left_s} : std::nullopt;
 }
 
 }  // namespace trivela::robot

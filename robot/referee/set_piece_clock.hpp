@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "idl/messages.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::robot {
 
@@ -16,10 +16,10 @@ class SetPieceClock {
   explicit SetPieceClock(double limit_s) : limit_s_(limit_s) {}
 
   /// The referee's state, as often as it comes.
-  void hear(const msg::Referee& word);
+  void receive(const msg::Referee& word);
 
   /// At the belief's instant [s]; none: no set piece of ours is under way.
-  kicking::Maybe left_s(const msg::WorldState& world);
+  kicking::OptionalDouble left_s(const msg::WorldState& world);
 
  private:
   double limit_s_;

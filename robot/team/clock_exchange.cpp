@@ -21,14 +21,14 @@ void ClockExchange::add(Ways& ways, const Way& way) {
   if (ways.size() > kMost) ways.pop_front();
 }
 
-void ClockExchange::heard(const Passage& theirs) {
-  if (!is_instant(theirs.sent_t_ns) || !is_instant(theirs.heard_t_ns)) return;
-  add(theirs_, {theirs.heard_t_ns, theirs.heard_t_ns - theirs.sent_t_ns, theirs});
+void ClockExchange::received(const Passage& theirs) {
+  if (!is_instant(theirs.sent_t_ns) || !is_instant(theirs.received_t_ns)) return;
+  add(theirs_, {theirs.received_t_ns, theirs.received_t_ns - theirs.sent_t_ns, theirs});
 }
 
 void ClockExchange::told(const Passage& ours) {
-  if (!is_instant(ours.sent_t_ns) || !is_instant(ours.heard_t_ns)) return;
-  add(ours_, {ours.sent_t_ns, ours.heard_t_ns - ours.sent_t_ns, ours});
+  if (!is_instant(ours.sent_t_ns) || !is_instant(ours.received_t_ns)) return;
+  add(ours_, {ours.sent_t_ns, ours.received_t_ns - ours.sent_t_ns, ours});
 }
 
 const ClockExchange::Way* ClockExchange::best(const Ways& ways, std::int64_t now_ns) {

@@ -17,8 +17,8 @@ constexpr bool is_instant(std::int64_t t_ns) { return t_ns >= 0 && t_ns < std::i
 
 /// Two readings of one message on its way.
 struct Passage {
-  std::int64_t sent_t_ns = 0;   ///< by the sender's clock
-  std::int64_t heard_t_ns = 0;  ///< by the receiver's
+  std::int64_t sent_t_ns = 0;      ///< by the sender's clock
+  std::int64_t received_t_ns = 0;  ///< by the receiver's
 };
 
 /// Compares this machine's clock with another's, by messages in both directions of which each takes its own time.
@@ -35,7 +35,7 @@ class ClockExchange {
   static constexpr double kLargestDrift = 5e-5;  ///< in seconds a second
 
   /// One of the other's messages came. What is no instant of a steady clock is passed over.
-  void heard(const Passage& theirs);
+  void received(const Passage& theirs);
 
   /// The other says when one of ours arrived; the same one may be told again.
   void told(const Passage& ours);

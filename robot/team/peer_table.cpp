@@ -9,11 +9,11 @@ constexpr std::uint8_t kBase = 0;
 
 }  // namespace
 
-std::optional<msg::TeamHeard> PeerTable::heard(const msg::TeamState& state, std::int64_t now_ns) {
+std::optional<msg::TeamHeard> PeerTable::received(const msg::TeamState& state, std::int64_t now_ns) {
   if (state.robot_id == own_) return std::nullopt;
   Other& other = others_[state.robot_id];
   if (other.started_t_ns != state.started_t_ns) other = {.started_t_ns = state.started_t_ns};
-  other.clocks.heard({state.t_ns, now_ns});
+  other.clocks.received({state.t_ns, now_ns});
   // What another life of ours said was perhaps by another clock.
   const bool ours = state.echoes && state.echo_robot_id == own_;
   if (ours && state.echo_t_ns >= started_ns_ && state.echo_t_ns <= now_ns)
@@ -23,7 +23,7 @@ std::optional<msg::TeamHeard> PeerTable::heard(const msg::TeamState& state, std:
   msg::TeamHeard news{};
   news.robot_id = own_;
   news.other_robot_id = state.robot_id;
-  news.seq = ++heard_seq_;
+  news.seq = ++received_seq_;
   news.t_ns = now_ns;
   if (const auto offset = other.clocks.estimate(now_ns)) {
     news.clock_known = true;
@@ -47,7 +47,7 @@ void PeerTable::fill(msg::TeamState& state, std::int64_t now_ns) {
     state.echoes = true;
     state.echo_robot_id = last_echoed_ = next->first;
     state.echo_t_ns = quickest->sent_t_ns;
-    state.echo_heard_t_ns = quickest->heard_t_ns;
+    state.echo_heard_t_ns = quickest->received_t_ns;
     return;
   }
 }

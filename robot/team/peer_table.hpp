@@ -17,7 +17,7 @@ class PeerTable {
   PeerTable(std::uint8_t own, std::int64_t started_ns) : own_(own), started_ns_(started_ns) {}
 
   /// Takes in another's state. None: it is our own number's, or older than one that came.
-  std::optional<msg::TeamHeard> heard(const msg::TeamState& state, std::int64_t now_ns);
+  std::optional<msg::TeamHeard> received(const msg::TeamState& state, std::int64_t now_ns);
 
   /// Our own number, said by somebody who is not us: there are two.
   bool is_duplicate(const msg::TeamState& state) const {
@@ -45,7 +45,7 @@ class PeerTable {
   const std::int64_t started_ns_;
   std::map<std::uint8_t, Other> others_;
   std::uint64_t seq_ = 0;
-  std::uint64_t heard_seq_ = 0;
+  std::uint64_t received_seq_ = 0;
   std::uint64_t referee_seq_ = 0;
   std::uint8_t last_echoed_ = 0;
   std::int64_t last_word_t_ns_ = 0;  // by the base's clock

@@ -13,11 +13,13 @@
 namespace trivela::robot {
 namespace {
 
-bool fresh(std::int64_t heard_ns, std::int64_t now_ns) { return heard_ns > 0 && now_ns - heard_ns <= kAlarmSilence_ns; }
+bool fresh(std::int64_t received_ns, std::int64_t now_ns) {
+  return received_ns > 0 && now_ns - received_ns <= kAlarmSilence_ns;
+}
 
 template <class T>
 const T* lately(const LatestSample<T>& last, std::int64_t now_ns) {
-  return last.word && fresh(last.heard_ns, now_ns) ? &*last.word : nullptr;
+  return last.word && fresh(last.received_ns, now_ns) ? &*last.word : nullptr;
 }
 
 void raise(msg::TeamSummary& summary, Alarm alarm, bool so) {
@@ -88,11 +90,11 @@ msg::TeamSummary robot_summary(const TeamInputs& inputs, std::int64_t now_ns) {
         world->playing ? msg::REASON_NO_BALL : msg::REASON_NOT_PLAYING;  // decisions are made with the ball
   }
   raise(summary, Alarm::kWorldSilent, world == nullptr);
-  raise(summary, Alarm::kVisionSilent, !fresh(inputs.vision_heard_ns, now_ns));
-  raise(summary, Alarm::kDecisionSilent, !fresh(inputs.drive_heard_ns, now_ns));
+  raise(summary, Alarm::kVisionSilent, !fresh(inputs.vision_received_ns, now_ns));
+  raise(summary, Alarm::kDecisionSilent, !fresh(inputs.drive_received_ns, now_ns));
   raise(summary, Alarm::kKickerSilent, kicker == nullptr);
   raise(summary, Alarm::kKickerFault, kicker != nullptr && kicker->fault != msg::FAULT_NONE);
-  raise(summary, Alarm::kRefereeSilent, !fresh(inputs.referee.heard_ns, now_ns));
+  raise(summary, Alarm::kRefereeSilent, !fresh(inputs.referee.received_ns, now_ns));
   return summary;
 }
 
@@ -106,13 +108,13 @@ msg::TeamSummary base_summary(const LatestSample<msg::Referee>& referee, std::in
   return summary;
 }
 
-std::optional<msg::WorldState> world_of(const msg::TeamHeard& heard) {
-  const msg::TeamSummary& summary = heard.summary;
+std::optional<msg::WorldState> world_of(const msg::TeamHeard& received) {
+  const msg::TeamSummary& summary = received.summary;
   if (!summary.placed) return std::nullopt;
   msg::WorldState world{};
-  world.robot_id = heard.other_robot_id;
-  world.seq = heard.seq;
-  world.t_ns = heard.t_ns;
+  world.robot_id = received.other_robot_id;
+  world.seq = received.seq;
+  world.t_ns = received.t_ns;
   world.half = summary.half;
   world.playing = summary.playing;
   world.x_m = summary.x_m;

@@ -11,7 +11,7 @@ namespace trivela::robot {
 template <class T>
 struct LatestSample {
   std::optional<T> word;
-  std::int64_t heard_ns = 0;  ///< steady clock; 0: never
+  std::int64_t received_ns = 0;  ///< steady clock; 0: never
 };
 
 /// What a robot's summary is made of.
@@ -20,8 +20,8 @@ struct TeamInputs {
   LatestSample<msg::KickerStatus> kicker;
   LatestSample<msg::KickDecision> decision;
   LatestSample<msg::Referee> referee;
-  std::int64_t vision_heard_ns = 0;
-  std::int64_t drive_heard_ns = 0;
+  std::int64_t vision_received_ns = 0;
+  std::int64_t drive_received_ns = 0;
 };
 
 /// A robot's summary: of what was heard within kAlarmSilence_ns; what was not is an alarm, and none in the summary.
@@ -32,6 +32,6 @@ msg::TeamSummary base_summary(const LatestSample<msg::Referee>& referee, std::in
 
 /// A mate's belief as a world_state of this machine's clock, for the node that tells the referee box; none: the mate
 /// does not know where it is. What a summary does not have is none.
-std::optional<msg::WorldState> world_of(const msg::TeamHeard& heard);
+std::optional<msg::WorldState> world_of(const msg::TeamHeard& received);
 
 }  // namespace trivela::robot

@@ -42,7 +42,7 @@ class FireWatch {
     std::vector<msg::DeviceFire> over;
     if (said_ns_ && now_ns - *said_ns_ < kPause_ns) return over;
     std::erase_if(waiting_, [&](const Waiting& one) {
-      if (now_ns - one.heard_ns < kTimeout_ns) return false;
+      if (now_ns - one.received_ns < kTimeout_ns) return false;
       over.push_back(one.fire);
       return true;
     });
@@ -54,7 +54,7 @@ class FireWatch {
   static constexpr std::size_t kMost = 256;  // whoever floods the bus fills no memory
   struct Waiting {
     msg::DeviceFire fire;
-    std::int64_t heard_ns;
+    std::int64_t received_ns;
   };
   static bool is_same(const msg::DeviceFire& a, const msg::DeviceFire& b) {
     return a.robot_id == b.robot_id && a.kick_id == b.kick_id;

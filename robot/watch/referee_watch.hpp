@@ -16,7 +16,7 @@
 namespace trivela::robot {
 
 /// What the referee's word permits.
-enum class RefereeSays {
+enum class RefereePermission {
   kNothing,  ///< it has said nothing yet
   kStop,
   kPlay,
@@ -32,11 +32,11 @@ class RefereeWatch {
   explicit RefereeWatch(double timeout_s) : timeout_s_(timeout_s) {}
 
   /// A word from the future is as good as one of now. `writer` tells the programs that write apart.
-  void heard(const msg::Referee& word, std::int64_t now_ns, std::uint64_t writer = 0) {
+  void received(const msg::Referee& word, std::int64_t now_ns, std::uint64_t writer = 0) {
     std::erase_if(others_, [&](const Other& other) { return other.writer == writer || is_old(other, now_ns); });
-    if (word_ && writer != writer_ && others_.size() < kMostOthers) others_.push_back({writer_, heard_ns_, *word_});
-    heard_ns_ = now_ns;
-    word_ = Word{std::min(word.t_ns, now_ns), word.playing};
+    if (word_ && writer != writer_ && others_.size() < kMostOthers) others_.push_back({writer_, received_ns_, *word_});
+    received_ns_ = now_ns;
+    word_ = Command{std::min(word.t_ns, now_ns), word.playing};
     writer_ = writer;
     deserted_ = false;
   }
@@ -46,10 +46,10 @@ class RefereeWatch {
     if (alive == 0) deserted_ = true;
   }
 
-  RefereeSays says(std::int64_t now_ns) const {
-    if (!word_) return RefereeSays::kNothing;
-    if (!word_->playing || other_stops(now_ns)) return RefereeSays::kStop;
-    return deserted_ || age_s(now_ns) > timeout_s_ ? RefereeSays::kSilent : RefereeSays::kPlay;
+  RefereePermission says(std::int64_t now_ns) const {
+    if (!word_) return RefereePermission::kNothing;
+    if (!word_->playing || other_stops(now_ns)) return RefereePermission::kStop;
+    return deserted_ || age_s(now_ns) > timeout_s_ ? RefereePermission::kSilent : RefereePermission::kPlay;
   }
 
   /// When the last word, which is to play, ends to count. 0: there is none.
@@ -61,7 +61,7 @@ class RefereeWatch {
     if (std::exchange(contested_, contested) != contested)
       return contested ? "several programs write referee for this robot: the stricter command counts; stop all but one"
                        : "one program writes referee again";
-    const bool silent = says(now_ns) == RefereeSays::kSilent;
+    const bool silent = says(now_ns) == RefereePermission::kSilent;
     if (silent == silent_) return std::nullopt;
     silent_ = silent;
     if (!silent) return "the referee is received again";
@@ -70,20 +70,20 @@ class RefereeWatch {
   }
 
  private:
-  struct Word {
+  struct Command {
     std::int64_t t_ns;
     bool playing;
   };
   struct Other {
     std::uint64_t writer;
-    std::int64_t heard_ns;
-    Word word;
+    std::int64_t received_ns;
+    Command word;
   };
   static constexpr std::size_t kMostOthers = 8;
 
   double age_s(std::int64_t now_ns) const { return kicking::seconds(now_ns - word_->t_ns); }
   bool is_old(const Other& other, std::int64_t now_ns) const {
-    return kicking::seconds(now_ns - other.heard_ns) > timeout_s_;
+    return kicking::seconds(now_ns - other.received_ns) > timeout_s_;
   }
   bool other_stops(std::int64_t now_ns) const {
     return std::ranges::any_of(others_,
@@ -91,10 +91,10 @@ class RefereeWatch {
   }
 
   double timeout_s_;
-  std::optional<Word> word_;
-  std::uint64_t writer_ = 0;   // of word_
-  std::int64_t heard_ns_ = 0;  // word_
-  std::vector<Other> others_;  // last words of other writers
+  std::optional<Command> word_;
+  std::uint64_t writer_ = 0;      // of word_
+  std::int64_t received_ns_ = 0;  // word_
+  std::vector<Other> others_;     // last words of other writers
   std::atomic<bool> deserted_ = false;
   bool silent_ = false;
   bool contested_ = false;

@@ -25,15 +25,15 @@ class SequenceWatch {
   };
 
   /// `writer` tells the writers of a topic apart, also where one goes and comes back; a new one, of a node that was
-  /// started again or of a second node, starts a new count, which is no gap. `heard_s`: when this one came, on any
+  /// started again or of a second node, starts a new count, which is no gap. `received_s`: when this one came, on any
   /// clock that rises; none: as in lockstep, where any time may have passed. `said_s`: its own instant; who stood still
   /// for long takes what waited for it in no time, and then what came after that was lost.
-  Finding see(std::uint8_t robot_id, std::uint64_t seq, std::uint64_t writer, std::optional<double> heard_s = {},
+  Finding see(std::uint8_t robot_id, std::uint64_t seq, std::uint64_t writer, std::optional<double> received_s = {},
               std::optional<double> said_s = {}) {
     if (robot_id == 0 || seq > kHighest) return {.believed = false};
     Robot& robot = robots_[robot_id];
     Count& count = robot.count_of(writer);
-    const std::uint64_t most = count.most_numbers(heard_s, said_s);
+    const std::uint64_t most = count.most_numbers(received_s, said_s);
     if (!count.fresh && seq > count.last && seq - count.last > most) {
       const bool confirmed = count.doubted && seq > *count.doubted && seq - *count.doubted <= most;
       if (!confirmed) {
@@ -43,7 +43,7 @@ class SequenceWatch {
       count.last = *count.doubted;
     }
     count.doubted.reset();
-    if (heard_s) count.heard_s = *heard_s;
+    if (received_s) count.received_s = *received_s;
     if (said_s) count.said_s = std::max(*said_s, count.said_s.value_or(*said_s));
     if (!count.fresh && seq <= count.last) return late(count, seq);
     return newer(robot, count, seq);
@@ -91,14 +91,14 @@ class SequenceWatch {
     std::uint64_t turn = 0;  // when it was heard last, counted in samples of its robot
     Skipped skipped{};
     bool fresh = true;
-    double heard_s = 0.0;
+    double received_s = 0.0;
     std::optional<double> said_s{};
     std::optional<std::uint64_t> doubted{};
 
     /// That may have been written since the last one that was believed.
     std::uint64_t most_numbers(std::optional<double> now_s, std::optional<double> then_s) const {
       if (!now_s) return kHighest;
-      const double passed_s = std::max(*now_s - heard_s, then_s && said_s ? *then_s - *said_s : 0.0);
+      const double passed_s = std::max(*now_s - received_s, then_s && said_s ? *then_s - *said_s : 0.0);
       const double written = std::clamp(passed_s * kMostPerSecond, 0.0, static_cast<double>(kHighest));
       return std::max(kAlwaysPossible, static_cast<std::uint64_t>(written));
     }

@@ -42,7 +42,7 @@ class SilenceWatch {
   /// A sample of `ns` was heard. A gap between the instants of two samples is a silence that has ended, even if no look
   /// saw it begin. The last sample once more, as a topic gives it to who joins late, is no news. `came_ns`: when it
   /// came, by the looks' clock; not known: when it was looked next.
-  void heard(std::size_t stream, std::uint8_t robot_id, std::int64_t ns, std::optional<std::int64_t> came_ns = {}) {
+  void received(std::size_t stream, std::uint8_t robot_id, std::int64_t ns, std::optional<std::int64_t> came_ns = {}) {
     const auto [place, first] = streams_.try_emplace({stream, robot_id});
     StreamState& state = place->second;
     if (!first && ns == state.last_ns) return;
@@ -50,7 +50,7 @@ class SilenceWatch {
     if (state.silent || (!first && ns > state.last_ns && ns - state.last_ns > limit_ns))
       edges_.push_back({stream, robot_id, limit_ns, state.last_ns, ns});
     state = {.last_ns = ns};
-    if (came_ns) state.heard_awake_ns = awake_ns_ + awake_since_look(*came_ns);
+    if (came_ns) state.received_awake_ns = awake_ns_ + awake_since_look(*came_ns);
   }
 
   /// What began or ended since the last look, in the order in which it was noticed.
@@ -60,8 +60,8 @@ class SilenceWatch {
     for (auto& [key, state] : streams_) {
       const auto& [stream, robot_id] = key;
       const std::int64_t limit_ns = kSilentPeriods * periods_ns_[stream];
-      if (!state.heard_awake_ns) state.heard_awake_ns = awake_ns_;
-      if (state.silent || awake_ns_ - *state.heard_awake_ns <= limit_ns) continue;
+      if (!state.received_awake_ns) state.received_awake_ns = awake_ns_;
+      if (state.silent || awake_ns_ - *state.received_awake_ns <= limit_ns) continue;
       state.silent = true;
       edges_.push_back({stream, robot_id, limit_ns, state.last_ns, std::nullopt});
     }
@@ -75,7 +75,7 @@ class SilenceWatch {
     std::int64_t pause_ns = most_ns;
     for (const std::int64_t period_ns : periods_ns_) pause_ns = std::min(pause_ns, kSilentPeriods * period_ns);
     for (const auto& [key, state] : streams_) {
-      const std::int64_t silent_ns = awake_ns_ - state.heard_awake_ns.value_or(awake_ns_);
+      const std::int64_t silent_ns = awake_ns_ - state.received_awake_ns.value_or(awake_ns_);
       pause_ns = state.silent ? 0 : std::min(pause_ns, kSilentPeriods * periods_ns_[key.first] - silent_ns);
     }
     return longest_step_ns_ = std::max(pause_ns, step_ns_);
@@ -88,7 +88,7 @@ class SilenceWatch {
 
   struct StreamState {
     std::int64_t last_ns = 0;
-    std::optional<std::int64_t> heard_awake_ns{};  // of the last sample, or of the first look after it
+    std::optional<std::int64_t> received_awake_ns{};  // of the last sample, or of the first look after it
     bool silent = false;
   };
 

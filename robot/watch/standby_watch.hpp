@@ -17,20 +17,20 @@ class StandbyWatch {
   static constexpr std::int64_t kOverlap_ns = 2'000'000'000;  // discovery takes up to a second or so
 
   /// The first one has spoken.
-  void heard(std::int64_t now_ns) {
+  void received(std::int64_t now_ns) {
     const std::lock_guard lock{mutex_};
-    if (!heard_ns_ || now_ns - *heard_ns_ > kSilence_ns) since_ns_ = now_ns;
-    heard_ns_ = now_ns;
+    if (!received_ns_ || now_ns - *received_ns_ > kSilence_ns) since_ns_ = now_ns;
+    received_ns_ = now_ns;
   }
 
   /// To be asked each cycle.
   bool in_charge(std::int64_t now_ns) {
     const std::lock_guard lock{mutex_};
     if (!started_ns_) started_ns_ = now_ns;
-    const bool silent = heard_ns_ ? now_ns - *heard_ns_ > kSilence_ns : now_ns - *started_ns_ > kStart_ns;
+    const bool silent = received_ns_ ? now_ns - *received_ns_ > kSilence_ns : now_ns - *started_ns_ > kStart_ns;
     if (silent) {
       in_charge_ = true;
-    } else if (heard_ns_ && *heard_ns_ - since_ns_ >= kOverlap_ns) {
+    } else if (received_ns_ && *received_ns_ - since_ns_ >= kOverlap_ns) {
       in_charge_ = false;
     }
     return in_charge_;
@@ -38,7 +38,7 @@ class StandbyWatch {
 
  private:
   std::mutex mutex_;
-  std::optional<std::int64_t> started_ns_, heard_ns_;
+  std::optional<std::int64_t> started_ns_, received_ns_;
   std::int64_t since_ns_ = 0;  // heard without a silence since then
   bool in_charge_ = false;
 };

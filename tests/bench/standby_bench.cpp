@@ -32,13 +32,13 @@ class Onlooker {
       : drive_(bus::Participant{nodes::domain_of(settings.domain)}, {.observer = true}) {}
 
   /// Waits for a command of a node, and says when it came. Throws std::runtime_error where none comes.
-  Clock::time_point hear(const std::string& node) {
+  Clock::time_point receive(const std::string& node) {
     const std::string owner = node + "/1";
     for (const auto end = Clock::now() + kTimeout; Clock::now() < end;) {
       drive_.wait(std::chrono::milliseconds{10});
-      bool heard = false;
-      drive_.take([&](const msg::DriveCommand&, const bus::SampleInfo& info) { heard |= info.owner == owner; });
-      if (heard) return Clock::now();
+      bool received = false;
+      drive_.take([&](const msg::DriveCommand&, const bus::SampleInfo& info) { received |= info.owner == owner; });
+      if (received) return Clock::now();
     }
     throw std::runtime_error{"nothing is heard of " + node};
   }
@@ -62,10 +62,10 @@ class Onlooker {
 
 /// Strikes the first with the signal, and brings it back; in ms.
 double takeover_ms(faults::RealTimeStack& stack, Onlooker& onlooker, int signal) {
-  onlooker.hear(kFirst);
+  onlooker.receive(kFirst);
   const auto struck = Clock::now();
   stack.signal(kFirst, signal);
-  const double length_ms = std::chrono::duration<double, std::milli>(onlooker.hear(kSecond) - struck).count();
+  const double length_ms = std::chrono::duration<double, std::milli>(onlooker.receive(kSecond) - struck).count();
   if (signal == SIGKILL) {
     stack.restart(kFirst);
   } else {

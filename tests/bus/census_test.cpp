@@ -62,21 +62,21 @@ TEST(Observer, HearsEveryProfile) {
   Reader<msg::Odometry> hears_state(outside, looking_on());
   Reader<msg::KickOrder> hears_order(outside, looking_on());
   Reader<msg::KickDecision> hears_event(outside, looking_on());
-  const auto hears = [](auto& reader, auto& writer, auto sample) {
+  const auto receives = [](auto& reader, auto& writer, auto sample) {
     EXPECT_TRUE(reader.wait_for_writers(1, seconds(10)));
-    std::size_t heard = 0;
+    std::size_t received = 0;
     sample.robot_id = 1;
     // Best effort: what is written before the writer knows of the reader, nobody says again.
-    for (int i = 0; i < 500 && heard == 0; ++i) {
+    for (int i = 0; i < 500 && received == 0; ++i) {
       writer.write(sample);
-      if (reader.wait(milliseconds(20))) heard = reader.take([](const auto&) {});
+      if (reader.wait(milliseconds(20))) received = reader.take([](const auto&) {});
     }
-    EXPECT_GT(heard, 0u) << reader.topic();
+    EXPECT_GT(received, 0u) << reader.topic();
     EXPECT_EQ(reader.counts().incompatible, 0u) << reader.topic();
   };
-  hears(hears_state, state, msg::Odometry{});
-  hears(hears_order, order, msg::KickOrder{});
-  hears(hears_event, event, msg::KickDecision{});
+  receives(hears_state, state, msg::Odometry{});
+  receives(hears_order, order, msg::KickOrder{});
+  receives(hears_event, event, msg::KickDecision{});
 }
 
 TEST(Observer, IsGivenTheLastStateWhereItAsksForItAndStaysUncounted) {

@@ -412,7 +412,7 @@ TEST(ExecutorTest, AMailboxGoesWithItsOwnerAndNotWithTheNode) {
     mailbox = owned;
   }
   EXPECT_TRUE(mailbox.expired());
-  EXPECT_EQ(node.inputs().at(0).heard_ns(0), 0);
+  EXPECT_EQ(node.inputs().at(0).received_ns(0), 0);
 }
 
 TEST(ExecutorTest, ANodeKnowsWhenItsInputsCameLast) {
@@ -424,8 +424,8 @@ TEST(ExecutorTest, ANodeKnowsWhenItsInputsCameLast) {
   node.on_device(
       "wheels", [&](nanoseconds timeout) { return feed.get(timeout); }, [](std::int64_t) {});
   ASSERT_EQ(node.inputs().size(), 3u);
-  const auto heard = [&](std::size_t i) { return node.inputs()[i].heard_ns(INT64_MAX); };
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(heard(i), 0) << node.inputs()[i].name;
+  const auto received = [&](std::size_t i) { return node.inputs()[i].received_ns(INT64_MAX); };
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(received(i), 0) << node.inputs()[i].name;
   EXPECT_EQ(node.inputs()[0].period_s, meta<msg::Referee>::period_s);
   EXPECT_EQ(node.inputs()[2].name, "device:wheels");
   Writer<msg::Referee> referee(participant);
@@ -439,13 +439,13 @@ TEST(ExecutorTest, ANodeKnowsWhenItsInputsCameLast) {
   node.every(milliseconds(2), "looks", [&] {
     write(referee, msg::Referee{}, 2);
     write(odometry, msg::Odometry{}, 2);
-    EXPECT_EQ(heard(0), 0) << "another robot's";
-    EXPECT_EQ(heard(1), 0) << "another robot's";
-    if (heard(2) > 0) stop.request();
+    EXPECT_EQ(received(0), 0) << "another robot's";
+    EXPECT_EQ(received(1), 0) << "another robot's";
+    if (received(2) > 0) stop.request();
   });
   Executor(Executor::kListener, stop, {&node}).run();
   write(referee, msg::Referee{}, 1);
-  EXPECT_GT(heard(0), 0);
+  EXPECT_GT(received(0), 0);
 }
 
 }  // namespace

@@ -76,17 +76,17 @@ TEST(Liveliness, OfTwoWritersTheStrongerIsHeardUntilItLapses) {
   Writer<msg::KickOrder> standby(participant, {.lease = seconds(10), .strength = 1});
   Watch watch;
   Reader<msg::KickOrder> reader(participant, watch.options());
-  const auto heard = [&] {
+  const auto received = [&] {
     std::vector<std::int64_t> ids;
     reader.take([&](const msg::KickOrder& o) { ids.push_back(o.kick_id); });
     return ids;
   };
   chief.write(order(1));
   standby.write(order(2));
-  EXPECT_EQ(heard(), std::vector<std::int64_t>{1});
+  EXPECT_EQ(received(), std::vector<std::int64_t>{1});
   ASSERT_TRUE(watch.wait(1, 1)) << "the chief never lapsed";
   standby.write(order(3));
-  EXPECT_EQ(heard(), std::vector<std::int64_t>{3});
+  EXPECT_EQ(received(), std::vector<std::int64_t>{3});
 }
 
 TEST(Liveliness, AssertingItHoldsTheLease) {

@@ -39,7 +39,7 @@ TEST(ReconnectBackoff, IsDueAfterHalfASecondAndThenEachTimeAfterTwiceAsLongUpToT
 TEST(ReconnectBackoff, BeginsAnewOnceSomethingIsHeard) {
   ReconnectBackoff watch{ReconnectBackoff::of_period(milliseconds{20})};
   EXPECT_TRUE(due_between(watch, kStart, kStart + milliseconds{500}).then);
-  watch.heard(kStart + milliseconds{600});
+  watch.received(kStart + milliseconds{600});
   EXPECT_EQ(watch.attempts(), 0u);
   const Due due = due_between(watch, kStart + milliseconds{600}, kStart + milliseconds{1100});
   EXPECT_FALSE(due.before);

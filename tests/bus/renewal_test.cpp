@@ -77,24 +77,24 @@ TEST(Renewal, ASilentReaderMadeAnewHearsNothingTwiceAndMissesNothing) {
 TEST(Renewal, EventsThatAreSaidWhileTheirReaderIsMadeAnewAreHeardOnceEach) {
   Wire wire;  // its own reader hears nothing, so that all are made again
   Writer<msg::KickReceipt> events{wire.near};
-  Reader<msg::KickReceipt> hears{wire.far, {.period = {}, .keep_all = true, .on_liveliness = {}}};
+  Reader<msg::KickReceipt> receives{wire.far, {.period = {}, .keep_all = true, .on_liveliness = {}}};
   ASSERT_TRUE(events.wait_for_readers(1, kPlenty));
   ASSERT_TRUE(renewed(wire.reader));
-  std::vector<std::uint64_t> heard;
+  std::vector<std::uint64_t> received;
   int renewals = 0;
   for (std::uint64_t seq = 1; seq <= 300; ++seq) {
     msg::KickReceipt event{};
     event.robot_id = 1;
     event.seq = seq;
     events.write(event);
-    renewals += renew_if_silent(hears);
+    renewals += renew_if_silent(receives);
     const auto deadline = std::chrono::steady_clock::now() + kPlenty;
-    while (heard.size() < seq && std::chrono::steady_clock::now() < deadline) {
-      hears.take([&](const msg::KickReceipt& sample) { heard.push_back(sample.seq); });
-      if (heard.size() < seq) hears.wait(milliseconds{1});
+    while (received.size() < seq && std::chrono::steady_clock::now() < deadline) {
+      receives.take([&](const msg::KickReceipt& sample) { received.push_back(sample.seq); });
+      if (received.size() < seq) receives.wait(milliseconds{1});
     }
-    ASSERT_EQ(heard.size(), seq);
-    ASSERT_EQ(heard.back(), seq);
+    ASSERT_EQ(received.size(), seq);
+    ASSERT_EQ(received.back(), seq);
   }
   EXPECT_EQ(renewals, 1);
 }
@@ -132,8 +132,8 @@ TEST_P(RenewalInExecutor, AReactionGoesOnAfterItsTopicWasSilent) {
   Node node{far, "listener", 1};
   std::promise<void> first;
   std::promise<void> second;
-  int heard = 0;
-  node.on<msg::VisionFrame>([&](const msg::VisionFrame&) { (++heard == 1 ? first : second).set_value(); });
+  int received = 0;
+  node.on<msg::VisionFrame>([&](const msg::VisionFrame&) { (++received == 1 ? first : second).set_value(); });
   Stop stop;
   auto run = std::async(std::launch::async, [&] { Executor{GetParam(), stop, {&node}}.run(); });
   ASSERT_TRUE(writer.wait_for_readers(1, kPlenty));

@@ -24,12 +24,12 @@ struct HeardEstimate {
 };
 
 /// What fault_witness said.
-struct Heard {
+struct Received {
   std::vector<HeardEstimate> estimates;
   std::map<std::int64_t, double> release_late_s;  // by kick
   std::map<std::int64_t, std::int64_t> fires_t_ns, released_t_ns;
 
-  explicit Heard(const std::string& text) {
+  explicit Received(const std::string& text) {
     std::istringstream lines{text};
     for (std::string line; std::getline(lines, line);) {
       std::istringstream in{line};
@@ -57,18 +57,18 @@ TEST(LearningWitness, HearsOnStockTypesWhatIsRecordedAndWhatIsSo) {
                     setenv("CYCLONEDDS_URI", ("file://" + (folder / "bus.xml").string()).c_str(), 1);
                   }};
   ASSERT_TRUE(wait_for_change(folder.path(), witness.watch(), [&] {
-    return Heard{witness.output()}.estimates.size() >= 12;
+    return Received{witness.output()}.estimates.size() >= 12;
   })) << witness.errors();
   match.program().signal(SIGINT);
   match.program().wait();
   const Reader log{match.log()};
   const std::int64_t last = number_of(log, "SELECT max(seq) FROM kicker_estimates");
   ASSERT_TRUE(wait_for_change(folder.path(), witness.watch(), [&] {
-    return Heard{witness.output()}.estimates.back().seq >= last;
+    return Received{witness.output()}.estimates.back().seq >= last;
   })) << "nothing is recorded that was not heard";
-  const Heard heard{witness.output()};
-  std::int64_t next = heard.estimates.front().seq;
-  for (const HeardEstimate& e : heard.estimates) {
+  const Received received{witness.output()};
+  std::int64_t next = received.estimates.front().seq;
+  for (const HeardEstimate& e : received.estimates) {
     EXPECT_EQ(e.seq, next++);
     const auto rows = rows_of(
         log, fmt::format("SELECT kick_id, kicks, speed_ln, delay_s FROM kicker_estimates WHERE seq = {}", e.seq));
@@ -78,15 +78,17 @@ TEST(LearningWitness, HearsOnStockTypesWhatIsRecordedAndWhatIsSo) {
   EXPECT_EQ(next - 1, last);
 
   int compared = 0;
-  for (const auto& [kick_id, late_s] : heard.release_late_s) {
-    if (std::isnan(late_s) || !heard.fires_t_ns.contains(kick_id) || !heard.released_t_ns.contains(kick_id)) continue;
-    const double true_s = 1e-9 * static_cast<double>(heard.released_t_ns.at(kick_id) - heard.fires_t_ns.at(kick_id));
+  for (const auto& [kick_id, late_s] : received.release_late_s) {
+    if (std::isnan(late_s) || !received.fires_t_ns.contains(kick_id) || !received.released_t_ns.contains(kick_id))
+      continue;
+    const double true_s =
+        1e-9 * static_cast<double>(received.released_t_ns.at(kick_id) - received.fires_t_ns.at(kick_id));
     EXPECT_NEAR(late_s, true_s - 0.06, 0.03) << kick_id;
     ++compared;
   }
   EXPECT_GE(compared, 8);
-  EXPECT_NEAR(heard.estimates.back().speed_ln, std::log(kFaster), 0.04);
-  EXPECT_NEAR(heard.estimates.back().delay_s, kLater_s, 0.02);
+  EXPECT_NEAR(received.estimates.back().speed_ln, std::log(kFaster), 0.04);
+  EXPECT_NEAR(received.estimates.back().delay_s, kLater_s, 0.02);
 }
 
 }  // namespace

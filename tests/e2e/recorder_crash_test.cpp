@@ -63,12 +63,12 @@ TEST(RecorderCrash, AKilledRecorderLeavesAWholeLogWithAllThatItHadCommitted) {
   Witness witness{config::load_settings(match.config()).domain};
   ASSERT_TRUE(witness.hears_until([&] { return witness.last() >= 3000; })) << match.program().errors();
   // While the match goes on, what was heard is committed group by group.
-  const std::int64_t heard = witness.last();
+  const std::int64_t received = witness.last();
   std::int64_t committed = 0;
   {
     const Reader growing{match.log()};
-    ASSERT_TRUE(witness.hears_until([&] { return (committed = last_command_in(growing)) >= heard; }))
-        << committed << " of " << heard << " commands are in the log";
+    ASSERT_TRUE(witness.hears_until([&] { return (committed = last_command_in(growing)) >= received; }))
+        << committed << " of " << received << " commands are in the log";
   }
   kill(match.node("trivela-recorder").id(), SIGKILL);
   EXPECT_EQ(match.program().wait(), 1);

@@ -72,12 +72,12 @@ class Wire {
 
   /// Notes what has come meanwhile.
   void note() {
-    reader_.take([&](const msg::DriveCommand& command) { heard_.resize(command.seq, Clock::now()); });
+    reader_.take([&](const msg::DriveCommand& command) { received_.resize(command.seq, Clock::now()); });
   }
 
   /// When command `seq` was heard; none: never.
-  std::optional<Clock::time_point> heard(std::uint64_t seq) const {
-    return seq >= 1 && seq <= heard_.size() ? std::optional{heard_[seq - 1]} : std::nullopt;
+  std::optional<Clock::time_point> received(std::uint64_t seq) const {
+    return seq >= 1 && seq <= received_.size() ? std::optional{received_[seq - 1]} : std::nullopt;
   }
 
   /// The longest that the machine kept this thread from what it does each two milliseconds.
@@ -88,7 +88,7 @@ class Wire {
   bus::Writer<msg::DriveCommand> writer_;
   bus::Reader<msg::DriveCommand> reader_;
   std::uint64_t sent_ = 0;
-  std::vector<Clock::time_point> heard_;  // command by command
+  std::vector<Clock::time_point> received_;  // command by command
   Milliseconds longest_{0};
 };
 
@@ -118,7 +118,7 @@ Loss loss_of_a_kill(int kill, int disk_ms) {
   // Rows are committed in the order in which they came; what a busy machine's bus replaced before is a counted gap.
   const std::int64_t last = number_of(log, "SELECT coalesce(max(seq), 0) FROM drive_commands");
   EXPECT_GT(last, 0) << "nothing was recorded";
-  const auto first_missing = wire.heard(static_cast<std::uint64_t>(last) + 1);
+  const auto first_missing = wire.received(static_cast<std::uint64_t>(last) + 1);
   return {first_missing && *first_missing < killed ? Milliseconds{killed - *first_missing} : Milliseconds{0},
           wire.longest()};
 }

@@ -186,16 +186,16 @@ TEST(Silence, ANodeThatStandsStillIsWarnedOfLoggedAndReported) {
   EXPECT_THAT(match.node("recorder").errors(), HasSubstr("no odometry of robot 1 for 0."));
 
   // The longest gap that the witness heard is a row with his own times, up to samples that the log says it missed.
-  const std::pair heard = longest_gap(witness.odometry_t_ns);
-  ASSERT_GT(length_ns(heard), 1'000'000'000);
+  const std::pair received = longest_gap(witness.odometry_t_ns);
+  ASSERT_GT(length_ns(received), 1'000'000'000);
   const Reader log{match.folder / "match.db"};
   const auto silence = rows_of(log,
                                "SELECT from_t_ns, to_t_ns FROM losses WHERE stream = 'odometry' AND robot_id = 1 "
                                "ORDER BY to_t_ns - from_t_ns DESC LIMIT 1");
   ASSERT_THAT(silence, SizeIs(1));
   const auto from = std::get<std::int64_t>(silence[0][0]), to = std::get<std::int64_t>(silence[0][1]);
-  EXPECT_LE(from, heard.first);
-  EXPECT_GE(to, heard.second);
+  EXPECT_LE(from, received.first);
+  EXPECT_GE(to, received.second);
   const auto missed = std::ranges::count_if(witness.odometry_t_ns, [&](auto t_ns) { return from < t_ns && t_ns < to; });
   EXPECT_LE(missed, number_of(log, "SELECT sum(lost + gaps) FROM losses WHERE stream = 'odometry' AND robot_id = 0"))
       << fmt::format("{}", fmt::join(losses_of(log), "\n"));
@@ -232,14 +232,15 @@ TEST(Silence, ARecorderThatStoodStillForLongCountsEveryRowThatIsMissing) {
   const Reader log{match.folder / "match.db"};
   const auto first = number_of(log, "SELECT min(t_ns) FROM odometry"),
              last = number_of(log, "SELECT max(t_ns) FROM odometry");
-  const auto heard =
+  const auto received =
       std::ranges::count_if(witness.odometry_t_ns, [&](auto t_ns) { return first <= t_ns && t_ns <= last; });
   const auto told = number_of(
       log,
       "SELECT (SELECT count(*) FROM odometry) + sum(max(lost, gaps) + overflow + nan_refused + rejected) FROM losses "
       "WHERE stream = 'odometry' AND robot_id = 0");
-  EXPECT_LT(number_of(log, "SELECT count(*) FROM odometry"), heard - 200) << "nothing was lost: the test sees nothing";
-  EXPECT_NEAR(static_cast<double>(told), static_cast<double>(heard), 3.0)
+  EXPECT_LT(number_of(log, "SELECT count(*) FROM odometry"), received - 200)
+      << "nothing was lost: the test sees nothing";
+  EXPECT_NEAR(static_cast<double>(told), static_cast<double>(received), 3.0)
       << fmt::format("{}", fmt::join(losses_of(log), "\n"));
 }
 

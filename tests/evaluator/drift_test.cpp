@@ -34,10 +34,10 @@ std::vector<KickResidual> kicks(std::size_t n, std::uint32_t seed, std::size_t f
 
 TEST(DriftWatch, NamesTheKickAndTheSizeOfAFallInSpeed) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-    const auto story = drifts_of(kicks(160, seed, 80, std::log(0.92), std::log(0.92)));
+    const auto timeline = drifts_of(kicks(160, seed, 80, std::log(0.92), std::log(0.92)));
     // One of the seeds alarms before the change, which is what such a chart does once in some hundred kicks.
-    const auto found = std::ranges::find_if(story.drifts, [](const Drift& drift) { return drift.found >= 80; });
-    ASSERT_NE(found, story.drifts.end()) << seed;
+    const auto found = std::ranges::find_if(timeline.drifts, [](const Drift& drift) { return drift.found >= 80; });
+    ASSERT_NE(found, timeline.drifts.end()) << seed;
     const Drift& drift = *found;
     EXPECT_EQ(drift.kind, DriftKind::kExitSpeed);
     EXPECT_NEAR(static_cast<double>(drift.changed), 80.0, 2.0) << seed;
@@ -50,9 +50,9 @@ TEST(DriftWatch, NamesTheKickAndTheSizeOfAFallInSpeed) {
 }
 
 TEST(DriftWatch, FindsARiseAsWell) {
-  const auto story = drifts_of(kicks(160, 3, 80, std::log(1.08), std::log(1.08)));
-  ASSERT_FALSE(story.drifts.empty());
-  EXPECT_GT(story.drifts.front().factor.value, 0.04);
+  const auto timeline = drifts_of(kicks(160, 3, 80, std::log(1.08), std::log(1.08)));
+  ASSERT_FALSE(timeline.drifts.empty());
+  EXPECT_GT(timeline.drifts.front().factor.value, 0.04);
 }
 
 TEST(DriftWatch, AtMostOneFalseAlarmInTwoThousandKicks) {
@@ -96,9 +96,9 @@ TEST(DriftWatch, TheIntervalOfASizeHasTheTruth) {
 TEST(DriftWatch, HeightsWithoutSpeedsAreTheElevation) {
   int elevation = 0;
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-    const auto story = drifts_of(kicks(160, seed, 80, -0.25, 0.0));
-    ASSERT_FALSE(story.drifts.empty());
-    elevation += story.drifts.front().kind == DriftKind::kElevation;
+    const auto timeline = drifts_of(kicks(160, seed, 80, -0.25, 0.0));
+    ASSERT_FALSE(timeline.drifts.empty());
+    elevation += timeline.drifts.front().kind == DriftKind::kElevation;
   }
   EXPECT_GE(elevation, 15);
 }
@@ -123,9 +123,9 @@ TEST(DriftWatch, BallsThatBounceSayThatTheyWereLow) {
     all[i].height_at_most = true;
     all[i].speed.reset();
   }
-  const auto story = drifts_of(all);
-  ASSERT_FALSE(story.drifts.empty());
-  EXPECT_LT(story.drifts.front().factor.value, -0.03);
+  const auto timeline = drifts_of(all);
+  ASSERT_FALSE(timeline.drifts.empty());
+  EXPECT_LT(timeline.drifts.front().factor.value, -0.03);
 }
 
 TEST(DriftWatch, NothingComesOfNothing) {

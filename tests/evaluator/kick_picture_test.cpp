@@ -1,4 +1,4 @@
-#include "evaluator/story/kick_picture.hpp"
+#include "evaluator/timeline/kick_picture.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,12 +1,12 @@
 // What a replay is made of, out of rows written by hand.
-#include "evaluator/story/kick_timeline.hpp"
+#include "evaluator/timeline/kick_timeline.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 
 #include "evaluator/sessions/session_setup.hpp"
-#include "evaluator/story/replay.hpp"
+#include "evaluator/timeline/replay.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
@@ -145,7 +145,7 @@ class KickTimelines : public LogTest {
     if (!log_) log_.emplace(path(), session(), options());
     return *log_;
   }
-  std::vector<KickTimeline> stories() {
+  std::vector<KickTimeline> timelines() {
     log().close();
     return kick_timelines(log::Reader(path()));
   }
@@ -154,32 +154,32 @@ class KickTimelines : public LogTest {
 
 TEST_F(KickTimelines, HaveThePathFromBeforeTheDecisionToWhatSettledTheKick) {
   log().whole_kick();
-  const auto told = stories();
+  const auto told = timelines();
   ASSERT_THAT(told, SizeIs(1));
-  const KickTimeline& story = told[0];
-  EXPECT_EQ(story.number, 7);
-  EXPECT_EQ(story.path.front().t_ns, -1500 * kMs);
-  EXPECT_EQ(story.path.back().t_ns, 980 * kMs) << "0.3 s after what settled it, a sample in 40 ms";
-  EXPECT_THAT(story.path, SizeIs(63));
-  for (std::size_t i = 1; i < story.path.size(); ++i)
-    EXPECT_EQ(story.path[i].t_ns - story.path[i - 1].t_ns, 40 * kMs) << i;
-  EXPECT_NEAR(story.path.front().pose.x_m, -1.5, 1e-9);
-  EXPECT_EQ(story.flight.front().t_ns, 100 * kMs) << "frames without the ball are none";
-  EXPECT_NEAR(story.flight.front().place_m.y(), 4.46, 1e-9);
-  ASSERT_FALSE(story.opponent.empty());
-  EXPECT_NEAR(story.opponent.back().place_m.x() - story.path.back().pose.x_m, 1.0, 0.041) << "in F, not in R";
-  EXPECT_NEAR(story.opponent.back().place_m.y(), 6.0, 1e-9);
-  EXPECT_NEAR(*story.half_time_s, 61.4, 1e-9) << "by the referee's last word";
-  EXPECT_NEAR(*story.released_after_s, 0.08, 1e-9);
-  EXPECT_NEAR(*story.predicted->after_s, 0.68, 1e-9);
-  EXPECT_EQ(story.observed->outcome, "on_target");
-  EXPECT_NEAR(*story.observed->after_s, 0.7, 1e-9);
-  EXPECT_FALSE(story.truth);
+  const KickTimeline& timeline = told[0];
+  EXPECT_EQ(timeline.number, 7);
+  EXPECT_EQ(timeline.path.front().t_ns, -1500 * kMs);
+  EXPECT_EQ(timeline.path.back().t_ns, 980 * kMs) << "0.3 s after what settled it, a sample in 40 ms";
+  EXPECT_THAT(timeline.path, SizeIs(63));
+  for (std::size_t i = 1; i < timeline.path.size(); ++i)
+    EXPECT_EQ(timeline.path[i].t_ns - timeline.path[i - 1].t_ns, 40 * kMs) << i;
+  EXPECT_NEAR(timeline.path.front().pose.x_m, -1.5, 1e-9);
+  EXPECT_EQ(timeline.flight.front().t_ns, 100 * kMs) << "frames without the ball are none";
+  EXPECT_NEAR(timeline.flight.front().place_m.y(), 4.46, 1e-9);
+  ASSERT_FALSE(timeline.opponent.empty());
+  EXPECT_NEAR(timeline.opponent.back().place_m.x() - timeline.path.back().pose.x_m, 1.0, 0.041) << "in F, not in R";
+  EXPECT_NEAR(timeline.opponent.back().place_m.y(), 6.0, 1e-9);
+  EXPECT_NEAR(*timeline.half_time_s, 61.4, 1e-9) << "by the referee's last word";
+  EXPECT_NEAR(*timeline.released_after_s, 0.08, 1e-9);
+  EXPECT_NEAR(*timeline.predicted->after_s, 0.68, 1e-9);
+  EXPECT_EQ(timeline.observed->outcome, "on_target");
+  EXPECT_NEAR(*timeline.observed->after_s, 0.7, 1e-9);
+  EXPECT_FALSE(timeline.truth);
 }
 
 TEST_F(KickTimelines, DrawTheSegmentsThatTheDecisionHad) {
   log().whole_kick();
-  const DecidedSegments segments = stories().at(0).segments;
+  const DecidedSegments segments = timelines().at(0).segments;
   EXPECT_TRUE(segments.aligned);
   EXPECT_NEAR(segments.s1_from_m.y(), 4.0, 1e-9) << "the robot's centre, since by it S1 has this offset";
   EXPECT_NEAR(segments.s1_to_m.x(), 0.5, 1e-9);
@@ -190,7 +190,7 @@ TEST_F(KickTimelines, DrawTheSegmentsThatTheDecisionHad) {
 
 TEST_F(KickTimelines, OfAKickAloneHaveNoPathsAndSayNothingOfThem) {
   log().decision();
-  const auto told = stories();
+  const auto told = timelines();
   ASSERT_THAT(told, SizeIs(1));
   EXPECT_THAT(told[0].path, IsEmpty());
   EXPECT_FALSE(told[0].observed || told[0].released_after_s || told[0].half_time_s);
@@ -204,7 +204,7 @@ TEST_F(KickTimelines, WithoutPosesHaveNoOpponentButTheBallInFlight) {
   log().decision();
   log().opponent(kDecided, 1.0, 2.0);
   log().flight(kDecided + 200 * kMs, true, 5.0, 0.6);
-  const auto told = stories();
+  const auto told = timelines();
   EXPECT_THAT(told.at(0).opponent, IsEmpty()) << "nobody knows where R was";
   EXPECT_THAT(told.at(0).flight, SizeIs(1));
 }
@@ -212,7 +212,7 @@ TEST_F(KickTimelines, WithoutPosesHaveNoOpponentButTheBallInFlight) {
 TEST_F(KickTimelines, LeaveOutOrdersThatTheDriverRefused) {
   log().decision();
   log().receipt("charging");
-  EXPECT_THAT(stories(), IsEmpty());
+  EXPECT_THAT(timelines(), IsEmpty());
 }
 
 TEST_F(KickTimelines, LeaveOutRowsOfOtherRobots) {
@@ -228,7 +228,7 @@ TEST_F(KickTimelines, LeaveOutRowsOfOtherRobots) {
 TEST_F(KickTimelines, OfASessionsFirstInstantBeginWithTheSession) {
   for (Int t = 0; t <= 400; t += 20) log().world(kDecided + t * kMs);
   log().decision();
-  const auto told = stories();
+  const auto told = timelines();
   EXPECT_EQ(told.at(0).path.front().t_ns, 0);
   EXPECT_EQ(told.at(0).path.back().t_ns, 380 * kMs) << "the first sample of the last step";
 }
@@ -236,7 +236,7 @@ TEST_F(KickTimelines, OfASessionsFirstInstantBeginWithTheSession) {
 TEST_F(KickTimelines, EndWhereTheRobotIsSuddenlyElsewhere) {
   for (Int t = -1000; t <= 1000; t += 20) log().world(kDecided + t * kMs, t < -500 || t > 600 ? 3.0 : 0.0);
   log().decision();
-  const auto told = stories();
+  const auto told = timelines();
   EXPECT_EQ(told.at(0).path.front().t_ns, -500 * kMs);
   EXPECT_GE(told.at(0).path.back().t_ns, 560 * kMs);
   EXPECT_LE(told.at(0).path.back().t_ns, 600 * kMs);
@@ -260,7 +260,7 @@ TEST_F(KickTimelines, FindRowsWhereSequenceNumbersAreMissing) {
     if (t % 300 == 0) log().skip(1000);
   }
   log().decision();
-  const auto told = stories();
+  const auto told = timelines();
   EXPECT_EQ(told.at(0).path.front().t_ns, -1500 * kMs);
   EXPECT_EQ(told.at(0).path.back().t_ns, 1980 * kMs) << "2 s, where nothing settled it";
 }

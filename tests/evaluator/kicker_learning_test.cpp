@@ -58,7 +58,7 @@ TEST_F(KickerLearningOfALog, OfFewKicksItSaysThatTheyAreTooFew) {
   estimate(0, 0.0);
   estimate(match.kick(1, "on_target"), 0.05);
   const auto kickers = read();
-  EXPECT_FALSE(kickers.at(0).sound());
+  EXPECT_FALSE(kickers.at(0).valid());
   EXPECT_THAT(kickers[0].sentences(), ElementsAre(HasSubstr("1 flight is too few to say")));
 }
 
@@ -66,7 +66,7 @@ TEST_F(KickerLearningOfALog, BelievesFlightsThatLieWhereItSays) {
   estimate(0, 0.0);
   for (int i = 0; i < 6; ++i) estimate(match.kick(1, "on_target"), 0.05, 3.0 + 0.5 * i);
   const auto kickers = read();
-  EXPECT_TRUE(kickers.at(0).sound());
+  EXPECT_TRUE(kickers.at(0).valid());
   EXPECT_THAT(kickers[0].sentences().back(), HasSubstr("mean chi-square 4.2, expected 4): it may be believed"));
 }
 
@@ -82,7 +82,7 @@ TEST_F(KickerLearningOfALog, DoesNotBelieveFlightsThatLieFartherThanItSays) {
   estimate(0, 0.0);
   for (int i = 0; i < 6; ++i) estimate(match.kick(1, "on_target"), 0.05, 15.0);
   const auto kickers = read();
-  EXPECT_FALSE(kickers.at(0).sound());
+  EXPECT_FALSE(kickers.at(0).valid());
   EXPECT_THAT(kickers[0].sentences().back(), HasSubstr("do not believe it"));
 }
 
@@ -92,7 +92,7 @@ TEST_F(KickerLearningOfALog, ItsLastThirtyFlightsSayWhetherToBelieveIt) {
   for (int i = 0; i < 30; ++i) estimate(match.kick(1, "on_target"), 0.05, 5.0);
   const auto kickers = read();
   EXPECT_DOUBLE_EQ(kickers.at(0).mean_chi_square(), 5.0);
-  EXPECT_TRUE(kickers[0].sound());
+  EXPECT_TRUE(kickers[0].valid());
 }
 
 TEST_F(KickerLearningOfALog, DoesNotBelieveWhereMostFlightsSayNothing) {
@@ -100,7 +100,7 @@ TEST_F(KickerLearningOfALog, DoesNotBelieveWhereMostFlightsSayNothing) {
   for (int i = 0; i < 12; ++i) estimate(match.kick(1, "on_target"), 0.05, 3.0, i % 2 == 0 ? 0.99 : 0.0);
   const auto kickers = read();
   EXPECT_EQ(kickers.at(0).mistaken(), 6);
-  EXPECT_FALSE(kickers[0].sound());
+  EXPECT_FALSE(kickers[0].valid());
   EXPECT_THAT(kickers[0].sentences().front(), HasSubstr("6 of 12 flights said nothing of the kicker"));
 }
 

@@ -23,17 +23,17 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 KickTimeline kick(const std::string& policy, const std::string& outcome, double x_m, double z_m,
                   double distance_m = 5.0) {
-  KickTimeline story;
-  story.robot_id = 1;
-  story.number = 7;
-  story.half = 1;
-  story.policy = policy;
-  story.distance_m = distance_m;
-  story.power = 20.0;
-  story.robot = {1.0, 4.0, 0.0};
-  story.predicted = TimelineEnd{"", x_m, z_m - 0.1, std::nullopt, std::nullopt};
-  story.observed = TimelineEnd{outcome, x_m, z_m, 0.05, 0.6};
-  return story;
+  KickTimeline timeline;
+  timeline.robot_id = 1;
+  timeline.number = 7;
+  timeline.half = 1;
+  timeline.policy = policy;
+  timeline.distance_m = distance_m;
+  timeline.power = 20.0;
+  timeline.robot = {1.0, 4.0, 0.0};
+  timeline.predicted = TimelineEnd{"", x_m, z_m - 0.1, std::nullopt, std::nullopt};
+  timeline.observed = TimelineEnd{outcome, x_m, z_m, 0.05, 0.6};
+  return timeline;
 }
 
 /// A report of two policies and the kicks that it counts.
@@ -124,7 +124,7 @@ TEST(PageGoalMouth, KeepsWhatFlewFarAtItsEdge) {
 TEST(PageGoalMouth, SaysWhereNoCrossingWasSeen) {
   TwoPolicies two;
   two.data.kicks = {{0, kick("moving", "on_target", 0.0, 0.5)}};
-  two.data.kicks[0].story.observed->x_m.reset();
+  two.data.kicks[0].timeline.observed->x_m.reset();
   EXPECT_THAT(goal_mouth_section(two.view()), HasSubstr("No kick has an observed crossing"));
   two.data.kicks.clear();
   EXPECT_THAT(goal_mouth_section(two.view()), HasSubstr("There are no kicks."));
@@ -167,12 +167,12 @@ TEST(PagePredictions, FindsTheDriftOfHeights) {
   TwoPolicies two;
   for (int i = 0; i < 16; ++i) {
     two.data.kicks.push_back({0, kick("moving", "on_target", 0.0, 0.6)});  // predicted 0.1 m lower
-    two.data.kicks.back().story.observed->z_m = i % 2 == 0 ? 0.61 : 0.59;
+    two.data.kicks.back().timeline.observed->z_m = i % 2 == 0 ? 0.61 : 0.59;
   }
   std::string text = prediction_section(two.view());
   EXPECT_EQ(count(text, "<td>+10.0 cm</td>"), 1U) << "kicks of one set-point have one mean";
   EXPECT_THAT(text, HasSubstr("No kick was given a probability"));
-  for (PageKick& bounced : two.data.kicks) bounced.story.bounced = true;
+  for (PageKick& bounced : two.data.kicks) bounced.timeline.bounced = true;
   EXPECT_THAT(prediction_section(two.view()), HasSubstr("No kick has both"));
 }
 
@@ -190,11 +190,11 @@ TwoPolicies changed_kicker() {
   two.data.kicks.assign(2, {0, kick("moving", "on_target", 0.0, 0.5)});
   RobotDrift robot{.robot_id = 1};
   for (std::int64_t id = 1; id <= 2; ++id) {
-    two.data.kicks[static_cast<std::size_t>(id - 1)].story.kick_id = id;
-    two.data.kicks[static_cast<std::size_t>(id - 1)].story.number = id;
+    two.data.kicks[static_cast<std::size_t>(id - 1)].timeline.kick_id = id;
+    two.data.kicks[static_cast<std::size_t>(id - 1)].timeline.number = id;
     robot.kicks.push_back({.kick_id = id});
   }
-  robot.story.drifts = {{.changed = 1, .found = 1, .factor = {std::log(0.95), 0.01}, .height_m = -0.4}};
+  robot.timeline.drifts = {{.changed = 1, .found = 1, .factor = {std::log(0.95), 0.01}, .height_m = -0.4}};
   two.data.drift.robots = {robot};
   return two;
 }
@@ -219,9 +219,9 @@ TEST(PageDrift, SaysThatNothingChangedOrThatThereAreTooFewKicks) {
   EXPECT_THAT(drift_section(two.view()), HasSubstr("There is no kick"));
   RobotDrift well{.robot_id = 1}, hardly_seen{.robot_id = 2};
   well.kicks.resize(60);
-  well.story.level = {.heights = 50, .height = {0.0101, 0.002}};
+  well.timeline.level = {.heights = 50, .height = {0.0101, 0.002}};
   hardly_seen.kicks.resize(9);
-  hardly_seen.story.level = {.heights = 7};
+  hardly_seen.timeline.level = {.heights = 7};
   two.data.drift.robots = {well, hardly_seen};
   const std::string text = drift_section(two.view());
   EXPECT_THAT(text,
@@ -304,16 +304,16 @@ TEST(PageHeld, AddsUpWhatTheShadowsPredictedAndCallsItAnEstimate) {
 }
 
 TEST(PageKickList, TellsTheInstantByUtcAndByTheMatch) {
-  KickTimeline story = kick("moving", "on_target", 0.0, 0.5);
-  story.half = 2;
-  story.half_time_s = 184.52;
-  story.utc_ns = 1'795'510'033'120'000'000;
-  EXPECT_EQ(match_time_text(story), "2, 3:04.5");
-  EXPECT_EQ(instant_text(story), "2026-11-24 08:47:13.12");
-  story.half_time_s.reset();
-  story.utc_ns = story.t_ns = 73'200'000'000;
-  EXPECT_EQ(match_time_text(story), "2");
-  EXPECT_EQ(instant_text(story), "+73.20 s");
+  KickTimeline timeline = kick("moving", "on_target", 0.0, 0.5);
+  timeline.half = 2;
+  timeline.half_time_s = 184.52;
+  timeline.utc_ns = 1'795'510'033'120'000'000;
+  EXPECT_EQ(match_time_text(timeline), "2, 3:04.5");
+  EXPECT_EQ(instant_text(timeline), "2026-11-24 08:47:13.12");
+  timeline.half_time_s.reset();
+  timeline.utc_ns = timeline.t_ns = 73'200'000'000;
+  EXPECT_EQ(match_time_text(timeline), "2");
+  EXPECT_EQ(instant_text(timeline), "+73.20 s");
 }
 
 TEST(PageKickList, HasAReplayForEachUntilTheyAreTooMany) {

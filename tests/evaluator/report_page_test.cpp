@@ -208,8 +208,8 @@ TEST_F(ReportPageOfALog, ListsTheTimeOfTheHalfOfKicksThatHaveNoReplay) {
   }
   const PageData data = read_page_data({path()});
   ASSERT_EQ(data.kicks.size(), kKicks);
-  EXPECT_EQ(data.kicks[kTold].story.half_time_s, 61.5) << "the referee spoke at the instant of its decision";
-  EXPECT_FALSE(data.kicks.front().story.half_time_s) << "he had not spoken yet";
+  EXPECT_EQ(data.kicks[kTold].timeline.half_time_s, 61.5) << "the referee spoke at the instant of its decision";
+  EXPECT_FALSE(data.kicks.front().timeline.half_time_s) << "he had not spoken yet";
 }
 
 TEST_F(ReportPageOfALog, RefusesAFileThatIsNoLog) {

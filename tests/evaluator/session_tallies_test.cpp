@@ -19,7 +19,7 @@ using log::Reader;
 using testing::HasSubstr;
 
 /// Views whose rows are tallies or counted now.
-const std::vector<std::string> kViews{"played_possessions", "decided_possessions", "driver_counts", "heard_halves"};
+const std::vector<std::string> kViews{"played_possessions", "decided_possessions", "driver_counts", "recorded_halves"};
 
 class SessionTallies : public LogTest {
  protected:

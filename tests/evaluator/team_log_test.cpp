@@ -293,7 +293,7 @@ TEST(TeamLog, WhateverStandsInOnePlaceItIsReadOrAFaultAndNoNumberIsTakenForAnoth
         ++cases;
         faults += log.faults.sentences().empty() ? 0 : 1;
         for (const TeamRecord& record : log.usable) {
-          for (const ToldRobot& robot : record.robots) {
+          for (const ReportedRobot& robot : record.robots) {
             ASSERT_TRUE(robot.id >= 0 && robot.id <= 255) << at << " " << value;
             ASSERT_TRUE(std::abs(robot.x_m) <= 50.0 && std::abs(robot.y_m) <= 50.0) << at << " " << value;
             ASSERT_LT(std::abs(robot.heading_rad), 3.2) << at << " " << value;

@@ -55,7 +55,7 @@ class Attackers : public AirTest {
   std::int64_t rows(const std::string& sql) const { return number_in(team->logs(1), "SELECT count(*) FROM " + sql); }
 
   /// Orders of the impostor's that any node of the robot took for orders, and answers to them.
-  std::int64_t heard() const {
+  std::int64_t received() const {
     const auto forged = fmt::format("WHERE kick_id BETWEEN {} AND {}", kForgedKick, kForgedKick + kForgedKicks - 1);
     return rows("kick_orders " + forged) + rows("kick_receipts " + forged);
   }

@@ -33,10 +33,10 @@ TEST_F(Attackers, OrdersForgedOnAnotherMachineReachARobotThatHasNoKeysFromItsOwn
   ASSERT_NO_FATAL_FAILURE(kick_off(false));
   const Packets forged = forged_orders(team->attacker(), config::TeamDomains{}.robot, team->tag(1));
   send(team->attacker(), "10.77.0.1", forged);
-  EXPECT_EQ(heard(), 0);
+  EXPECT_EQ(received(), 0);
   EXPECT_TRUE(plays_on());
   send(team->host(1), "127.0.0.1", forged);
-  EXPECT_GT(heard(), 0) << "the packets are as good as a robot's own";
+  EXPECT_GT(received(), 0) << "the packets are as good as a robot's own";
   EXPECT_EQ(team->casualties(), "");
   team->stop();
 }
@@ -46,7 +46,7 @@ TEST_F(Attackers, OrdersForgedOnTheLoopbackOfARobotWithKeysAreHeardByNobody) {
   const Packets forged = forged_orders(team->attacker(), config::TeamDomains{}.robot, team->tag(1));
   send(team->attacker(), "10.77.0.1", forged);
   send(team->host(1), "127.0.0.1", forged);
-  EXPECT_EQ(heard(), 0);
+  EXPECT_EQ(received(), 0);
   EXPECT_TRUE(plays_on());
   EXPECT_EQ(team->casualties(), "");
   team->stop();

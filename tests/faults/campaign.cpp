@@ -52,7 +52,7 @@ class Wholeness {
   }
 
   std::int64_t since_ns() const { return since_ns_; }
-  double streams_s() const { return seconds(since_ns_, *std::max_element(heard_ns_.begin(), heard_ns_.end())); }
+  double streams_s() const { return seconds(since_ns_, *std::max_element(received_ns_.begin(), received_ns_.end())); }
   double kick_s() const { return seconds(since_ns_, fired_ns_); }
 
   /// What has not come yet.
@@ -60,7 +60,7 @@ class Wholeness {
     std::vector<std::string> out;
     const std::int64_t now = now_ns();
     for (std::size_t i = 0; i < kPeriodic.size(); ++i) {
-      if (heard_ns_[i] == 0 || now - last_ns(i) > kFresh_ns) out.emplace_back(kPeriodic[i]);
+      if (received_ns_[i] == 0 || now - last_ns(i) > kFresh_ns) out.emplace_back(kPeriodic[i]);
     }
     if (fired_ns_ == 0) out.emplace_back("a kick");
     if (with_outcome_ && !outcome_) out.emplace_back("an outcome");
@@ -77,7 +77,7 @@ class Wholeness {
 
   void look_at_streams() {
     for (std::size_t i = 0; i < kPeriodic.size(); ++i) {
-      if (heard_ns_[i] == 0 && last_ns(i) > since_ns_) heard_ns_[i] = last_ns(i);
+      if (received_ns_[i] == 0 && last_ns(i) > since_ns_) received_ns_[i] = last_ns(i);
     }
   }
 
@@ -101,7 +101,7 @@ class Wholeness {
   std::int64_t since_ns_;
   std::filesystem::file_time_type since_file_;
   std::size_t fires_before_;
-  std::array<std::int64_t, kPeriodic.size()> heard_ns_{};
+  std::array<std::int64_t, kPeriodic.size()> received_ns_{};
   std::int64_t fired_ns_ = 0;
   bool outcome_ = false;
 };

@@ -37,7 +37,7 @@ TEST_P(KickerCampaign, NoPulseWithoutALawfulFreshOrderInPlayAndAReceiptOrACounte
     rig.play(steady_now_ns() + 150 * kMs);
   }
   EXPECT_EQ(rig.end(), "");
-  const JudgedPulses judged = judge_pulses(rig.story());
+  const JudgedPulses judged = judge_pulses(rig.timeline());
   EXPECT_THAT(judged.complaints, IsEmpty());
   EXPECT_THAT(unlogged(judged.kicks, rig.log()), IsEmpty());
   EXPECT_GE(judged.kicks.size(), rounds) << "at least a kick a round, or this says nothing";
@@ -54,7 +54,7 @@ TEST_P(KickerCampaign, NoPulseIsLateWhereTheDriverStandsStillFromAnOrderOn) {
     ASSERT_TRUE(rig.fires()) << rig.driver_errors();
   }
   EXPECT_EQ(rig.end(), "");
-  EXPECT_THAT(judge_pulses(rig.story()).complaints, IsEmpty());
+  EXPECT_THAT(judge_pulses(rig.timeline()).complaints, IsEmpty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, KickerCampaign,

@@ -29,14 +29,14 @@ std::optional<Spread> spread_of(const Fault& fault) {
 }
 
 /// A reader hands on what was said first first: no word to stop comes after a later one to play.
-void say_in_order(std::vector<CommandSeen>& heard, const CommandSeen& next) {
-  while (next.playing && !heard.empty() && heard.back().arrival_ns > next.arrival_ns) heard.pop_back();
+void say_in_order(std::vector<CommandSeen>& received, const CommandSeen& next) {
+  while (next.playing && !received.empty() && received.back().arrival_ns > next.arrival_ns) received.pop_back();
 }
 
 /// In the order in which they were said, that of the wire.
 std::vector<CommandSeen> heard_late(const Testimony& wire, const Trial& trial, std::int64_t to_ns,
                                     const Spread& spread) {
-  std::vector<CommandSeen> heard;
+  std::vector<CommandSeen> received;
   for (const CommandSeen& word : wire.words) {
     if (word.arrival_ns < trial.began_ns || word.arrival_ns > to_ns) continue;
     const bool late = word.arrival_ns <= trial.ended_ns;
@@ -44,10 +44,10 @@ std::vector<CommandSeen> heard_late(const Testimony& wire, const Trial& trial, s
                                                        : late        ? spread.least_ns
                                                                      : std::min<std::int64_t>(0, spread.least_ns));
     const CommandSeen seen{arrival_ns, word.playing};
-    say_in_order(heard, seen);
-    heard.push_back(seen);
+    say_in_order(received, seen);
+    received.push_back(seen);
   }
-  return heard;
+  return received;
 }
 
 }  // namespace
@@ -65,10 +65,10 @@ Testimony with_drivers_words(Testimony device, const Testimony& wire, const std:
       std::erase_if(device.words, [&](const CommandSeen& word) {
         return word.arrival_ns >= trial.began_ns && word.arrival_ns <= to_ns;
       });
-      std::vector<CommandSeen> heard = heard_late(wire, trial, to_ns, *spread);
+      std::vector<CommandSeen> received = heard_late(wire, trial, to_ns, *spread);
       for (const CommandSeen& word : device.words)
-        if (word.arrival_ns > to_ns) say_in_order(heard, word);
-      std::ranges::copy(heard, std::back_inserter(device.words));
+        if (word.arrival_ns > to_ns) say_in_order(received, word);
+      std::ranges::copy(received, std::back_inserter(device.words));
     } else if (garbles_driver(trial.fault)) {
       std::ranges::copy_if(wire.words, std::back_inserter(device.words), [&](const CommandSeen& word) {
         return word.arrival_ns >= trial.began_ns && word.arrival_ns <= trial.whole_ns;

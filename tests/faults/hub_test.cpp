@@ -49,7 +49,7 @@ class Socket {
     sendto(socket_, text.data(), text.size(), 0, reinterpret_cast<const sockaddr*>(&address), sizeof address);
   }
   /// The next datagram; empty: none came in time.
-  std::string hear(std::chrono::milliseconds timeout) const {
+  std::string receive(std::chrono::milliseconds timeout) const {
     pollfd source{socket_, POLLIN, 0};
     if (poll(&source, 1, static_cast<int>(timeout.count())) != 1) return {};
     char buffer[100];
@@ -75,7 +75,7 @@ class HubTest : public testing::Test {
     // Hosts that know each other's MAC address: afterwards a frame is a datagram.
     for (std::uint8_t to = 2; to <= 3; ++to) {
       sockets[0]->say("hello", to);
-      ASSERT_EQ(sockets[to - 1]->hear(kTimeout), "hello");
+      ASSERT_EQ(sockets[to - 1]->receive(kTimeout), "hello");
     }
   }
 
@@ -88,13 +88,13 @@ TEST_F(HubTest, ACutEndsOneWayAndNoOther) {
   hub->set({{{0, 1}, Way{.drop = 1.0}}});
   sockets[0]->say("cut", 2);
   sockets[0]->say("sound", 3);
-  EXPECT_EQ(sockets[2]->hear(kTimeout), "sound");
-  EXPECT_EQ(sockets[1]->hear(kSilence), "");
+  EXPECT_EQ(sockets[2]->receive(kTimeout), "sound");
+  EXPECT_EQ(sockets[1]->receive(kSilence), "");
   sockets[1]->say("back", 1);
-  EXPECT_EQ(sockets[0]->hear(kTimeout), "back");
+  EXPECT_EQ(sockets[0]->receive(kTimeout), "back");
   hub->set({});
   sockets[0]->say("again", 2);
-  EXPECT_EQ(sockets[1]->hear(kTimeout), "again");
+  EXPECT_EQ(sockets[1]->receive(kTimeout), "again");
   EXPECT_GE(hub->counts().dropped, 1u);
 }
 
@@ -102,7 +102,7 @@ TEST_F(HubTest, ADelayedFrameComesLateAndWhole) {
   hub->set({{{0, 1}, Way{.delay = std::chrono::milliseconds{150}, .jitter = std::chrono::milliseconds{50}}}});
   const auto said = Clock::now();
   sockets[0]->say("late", 2);
-  EXPECT_EQ(sockets[1]->hear(kTimeout), "late");
+  EXPECT_EQ(sockets[1]->receive(kTimeout), "late");
   EXPECT_GE(Clock::now() - said, std::chrono::milliseconds{150});
 }
 
@@ -110,9 +110,9 @@ TEST_F(HubTest, AGarbledDatagramReachesTheProgram) {
   hub->set({{{0, 1}, Way{.garble = 1.0}}});
   const std::string text(64, 'x');
   sockets[0]->say(text, 2);
-  const std::string heard = sockets[1]->hear(kTimeout);
-  EXPECT_EQ(heard.size(), text.size());
-  EXPECT_NE(heard, text);
+  const std::string received = sockets[1]->receive(kTimeout);
+  EXPECT_EQ(received.size(), text.size());
+  EXPECT_NE(received, text);
 }
 
 }  // namespace

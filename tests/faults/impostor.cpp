@@ -75,9 +75,9 @@ void speak_of(std::uint8_t robot_id) {
   best_effort.observer = true;
   const bus::Reader<msg::TeamState> listener{bus::Participant{own}, best_effort};
   bus::Writer<msg::TeamState> writer{bus::Participant{other}};
-  const auto heard = [&] { return listener.writers() > 0; };
-  for (int i = 0; i < 3000 && !heard(); ++i) pause(10);
-  if (!heard()) throw std::runtime_error{"the impostor's own listener does not come"};
+  const auto received = [&] { return listener.writers() > 0; };
+  for (int i = 0; i < 3000 && !received(); ++i) pause(10);
+  if (!received()) throw std::runtime_error{"the impostor's own listener does not come"};
   for (int i = 0; i < 50; ++i) {
     msg::TeamState state{};
     state.robot_id = robot_id;

@@ -63,7 +63,7 @@ void KickerRig::say() {
   word.seq = words_;
   word.t_ns = steady_now_ns();
   word.playing = playing_;
-  auto& said = story_.playing;
+  auto& said = timeline_.playing;
   if (said.empty() || said.rbegin()->second != playing_) said[word.t_ns] = playing_;
   referee_->write(word);
 }
@@ -95,7 +95,7 @@ void KickerRig::write_order(bus::Writer<msg::KickOrder>& writer, OrderKind kind,
   out.valid_until_t_ns = ordered.t_ns + 1'000 * kMs;
   out.power = kind == OrderKind::kOutOfRange ? 200.0 : ordered.units;
   out.possession = kind != OrderKind::kWithoutBall;
-  story_.ordered[out.kick_id] = ordered;
+  timeline_.ordered[out.kick_id] = ordered;
   writer.write(out);
 }
 
@@ -122,7 +122,7 @@ void KickerRig::signal_amid_a_kick(int signal) {
 void KickerRig::suffer(Trouble what, std::int64_t for_ns) {
   if (what == Trouble::kKill) signal_amid_a_kick(SIGKILL);
   if (what == Trouble::kStop) signal_amid_a_kick(SIGSTOP);
-  story_.troubles[steady_now_ns()] = what;
+  timeline_.troubles[steady_now_ns()] = what;
   if (what == Trouble::kRestart) {
     driver_->signal(SIGTERM);
     if (driver_->wait() != 0) throw std::runtime_error{"the driver did not end well: " + driver_->errors()};

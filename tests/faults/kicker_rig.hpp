@@ -50,12 +50,12 @@ class KickerRig {
   std::string driver_errors() const { return driver_->errors(); }
 
   /// All that happened, with the pulses so far.
-  const KickerTimeline& story() {
-    story_.pulses = board_->pulses();
-    return story_;
+  const KickerTimeline& timeline() {
+    timeline_.pulses = board_->pulses();
+    return timeline_;
   }
   /// The game is on, or stands, by somebody else's word.
-  void note_word(std::int64_t t_ns, bool playing) { story_.playing[t_ns] = playing; }
+  void note_word(std::int64_t t_ns, bool playing) { timeline_.playing[t_ns] = playing; }
 
  private:
   void start_driver();
@@ -73,7 +73,7 @@ class KickerRig {
   bus::Writer<msg::KickOrder> decision_;
   std::optional<e2e::Program> recorder_, driver_;
   std::mt19937_64 random_ = device_draws();
-  KickerTimeline story_;
+  KickerTimeline timeline_;
   std::uint64_t ids_ = 0, words_ = 0;
   bool playing_ = true;
 };

@@ -21,20 +21,20 @@ constexpr std::int64_t kLine_ns = 30 * kMs_ns;         // to the emulator's thre
 constexpr std::int64_t kQuestions_ns = 20 * kMs_ns;    // from one to the next
 
 /// Nobody can call back what is on its way when a line begins to hold back, which shows when an answer is missing.
-bool lay_in_the_line(const KickerTimeline& story, std::int64_t ordered_t_ns) {
+bool lay_in_the_line(const KickerTimeline& timeline, std::int64_t ordered_t_ns) {
   constexpr std::int64_t kUnnoticed_ns = kQuestions_ns + hal::KickerBoard::kDoubt_ns + kLine_ns;
-  return std::ranges::any_of(story.troubles, [&](const auto& trouble) {
+  return std::ranges::any_of(timeline.troubles, [&](const auto& trouble) {
     const std::int64_t after_ns = ordered_t_ns - trouble.first;
     return trouble.second == Trouble::kHold && after_ns > -kLine_ns && after_ns < kUnnoticed_ns;
   });
 }
 
 /// The lawful order of a pulse: fresh, and nobody's before.
-std::optional<std::int64_t> order_of(const KickerTimeline& story, const BoardPulse& pulse,
+std::optional<std::int64_t> order_of(const KickerTimeline& timeline, const BoardPulse& pulse,
                                      std::set<std::int64_t>& fired) {
-  for (const auto& [kick_id, ordered] : story.ordered) {
+  for (const auto& [kick_id, ordered] : timeline.ordered) {
     const std::int64_t age_ns = pulse.t_ns - ordered.t_ns;
-    const std::int64_t oldest_ns = lay_in_the_line(story, ordered.t_ns) ? kOldestHeld_ns : kOldest_ns;
+    const std::int64_t oldest_ns = lay_in_the_line(timeline, ordered.t_ns) ? kOldestHeld_ns : kOldest_ns;
     const bool fits = ordered.kind == OrderKind::kLawful && ordered.units == pulse.units && age_ns >= 0 &&
                       age_ns <= oldest_ns + kLine_ns;
     if (fits && fired.insert(kick_id).second) return kick_id;
@@ -42,21 +42,22 @@ std::optional<std::int64_t> order_of(const KickerTimeline& story, const BoardPul
   return std::nullopt;
 }
 
-bool while_it_stands(const KickerTimeline& story, std::int64_t t_ns) {
-  const auto word = story.playing.upper_bound(t_ns - kLine_ns);
-  const bool stands = word != story.playing.begin() && !std::prev(word)->second;
-  const bool starts_now = word != story.playing.end() && word->first <= t_ns;
+bool while_it_stands(const KickerTimeline& timeline, std::int64_t t_ns) {
+  const auto word = timeline.playing.upper_bound(t_ns - kLine_ns);
+  const bool stands = word != timeline.playing.begin() && !std::prev(word)->second;
+  const bool starts_now = word != timeline.playing.end() && word->first <= t_ns;
   return stands && !starts_now;
 }
 
 /// What was going on, and the last order of its power before it.
-std::string circumstances(const KickerTimeline& story, const BoardPulse& pulse) {
-  const auto trouble = story.troubles.upper_bound(pulse.t_ns);
-  std::string said = trouble == story.troubles.begin() ? "before any trouble"
-                                                       : fmt::format("{} ms after the start of \"{}\"",
-                                                                     (pulse.t_ns - std::prev(trouble)->first) / kMs_ns,
-                                                                     name(std::prev(trouble)->second));
-  for (auto last = story.ordered.rbegin(); last != story.ordered.rend(); ++last) {
+std::string circumstances(const KickerTimeline& timeline, const BoardPulse& pulse) {
+  const auto trouble = timeline.troubles.upper_bound(pulse.t_ns);
+  std::string said =
+      trouble == timeline.troubles.begin()
+          ? "before any trouble"
+          : fmt::format("{} ms after the start of \"{}\"", (pulse.t_ns - std::prev(trouble)->first) / kMs_ns,
+                        name(std::prev(trouble)->second));
+  for (auto last = timeline.ordered.rbegin(); last != timeline.ordered.rend(); ++last) {
     if (last->second.units != pulse.units || last->second.t_ns > pulse.t_ns) continue;
     return said + fmt::format(", {} ms after order {} of kind {}", (pulse.t_ns - last->second.t_ns) / kMs_ns,
                               last->first, static_cast<int>(last->second.kind));
@@ -81,17 +82,17 @@ std::vector<Silence> silences_in(const std::filesystem::path& path) {
 
 }  // namespace
 
-JudgedPulses judge_pulses(const KickerTimeline& story) {
+JudgedPulses judge_pulses(const KickerTimeline& timeline) {
   JudgedPulses out;
   std::set<std::int64_t> fired;
-  for (const BoardPulse& pulse : story.pulses) {
-    const auto order = order_of(story, pulse, fired);
+  for (const BoardPulse& pulse : timeline.pulses) {
+    const auto order = order_of(timeline, pulse, fired);
     if (order) out.kicks.push_back({pulse.t_ns, pulse.t_ns, *order, false});
     if (!order)
       out.complaints.push_back(fmt::format("a pulse of {} units without a lawful fresh order of its own: {}",
-                                           pulse.units, circumstances(story, pulse)));
-    if (while_it_stands(story, pulse.t_ns))
-      out.complaints.push_back(fmt::format("a pulse while the game stands: {}", circumstances(story, pulse)));
+                                           pulse.units, circumstances(timeline, pulse)));
+    if (while_it_stands(timeline, pulse.t_ns))
+      out.complaints.push_back(fmt::format("a pulse while the game stands: {}", circumstances(timeline, pulse)));
   }
   return out;
 }

@@ -34,7 +34,7 @@ struct JudgedPulses {
   std::vector<std::string>
       complaints;  ///< of pulses without a lawful fresh order of their own, or while the game stood
 };
-JudgedPulses judge_pulses(const KickerTimeline& story);
+JudgedPulses judge_pulses(const KickerTimeline& timeline);
 
 /// Kicks that have no receipt in the log and stand in no gap that it counts: neither do the driver's counters rise by
 /// them, nor is there a row of its silence around them, which is what a driver that was killed leaves.

@@ -16,11 +16,11 @@ constexpr std::int64_t kMsOfTest_ns = 1'000'000;
 
 /// An order at 1,000 and its pulse 2 later, while the game is on.
 KickerTimeline timeline_of_a_kick(OrderKind kind = OrderKind::kLawful) {
-  KickerTimeline story;
-  story.ordered[7] = {1000 * kMsOfTest_ns, kind, 25};
-  story.playing[0] = true;
-  story.pulses = {{1002 * kMsOfTest_ns, 25}};
-  return story;
+  KickerTimeline timeline;
+  timeline.ordered[7] = {1000 * kMsOfTest_ns, kind, 25};
+  timeline.playing[0] = true;
+  timeline.pulses = {{1002 * kMsOfTest_ns, 25}};
+  return timeline;
 }
 
 TEST(KickerTimeline, AFreshLawfulOrderInPlayIsFired) {

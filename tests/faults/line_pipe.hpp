@@ -36,7 +36,7 @@ class LinePipe {
   int file_descriptor() const { return ends_[0]; }
 
   /// Hands every whole line that has come to `line`. False: nobody will say anything any more.
-  bool hear(auto&& line) {
+  bool receive(auto&& line) {
     std::array<char, 65536> buffer;
     for (;;) {
       const ssize_t size = read(ends_[0], buffer.data(), buffer.size());

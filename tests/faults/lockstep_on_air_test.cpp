@@ -31,7 +31,7 @@ auto in_turns(std::function<void(TeamOnAir&)> done, std::function<void(TeamOnAir
   return [=](TeamOnAir& team, int time) { time % 2 == 0 ? done(team) : undone(team); };
 }
 
-const Way kSound{};
+const Way kHealthy{};
 
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> kAll{
@@ -40,7 +40,7 @@ const std::vector<Fault>& faults() {
        // Ten times a second: a second with all, two without anybody.
        [](TeamOnAir& team, int time) {
          if (time % 30 == 10) team.cut(1);
-         if (time % 30 == 0) team.air(kSound);
+         if (time % 30 == 0) team.air(kHealthy);
        }},
       {"Address", nothing,
        in_turns([](TeamOnAir& team) { team.lose_address(1); }, [](TeamOnAir& team) { team.give_address(1); })},

@@ -113,7 +113,7 @@ TEST(MutatedPackets, EveryStreamIsHeardAgainSoonAfterwards) {
 int heard_events(bus::Writer<msg::KickReceipt>& writer, bus::Reader<msg::KickReceipt>& reader,
                  std::chrono::seconds longest, const std::function<bool(int in_a_row_unheard)>& enough) {
   const auto until = std::chrono::steady_clock::now() + longest;
-  int heard = 0, unheard = 0;
+  int received = 0, unheard = 0;
   static std::uint64_t seq = 0;
   do {
     msg::KickReceipt event{};
@@ -123,10 +123,10 @@ int heard_events(bus::Writer<msg::KickReceipt>& writer, bus::Reader<msg::KickRec
     bus::renew_if_silent(reader);
     reader.wait(std::chrono::milliseconds{20});
     const auto now = static_cast<int>(reader.take([](const msg::KickReceipt&) {}));
-    heard += now;
+    received += now;
     unheard = now > 0 ? 0 : unheard + 1;
   } while (!enough(unheard) && std::chrono::steady_clock::now() < until);
-  return heard;
+  return received;
 }
 
 TEST(MutatedPackets, ATopicWithoutAPeriodIsHeardAgainThoughNoOtherFellSilent) {

@@ -164,13 +164,13 @@ TEST_F(Papers, ACameraThatOrdersOnTheRobotsLoopbackIsHeardByNobodyAndItsDecision
     EXPECT_TRUE(frames.wait_for_readers(1, kPlenty)) << "it is known, and heard in what it may say";
     say_orders(without_right);
   });
-  EXPECT_EQ(heard(), 0);
+  EXPECT_EQ(received(), 0);
   EXPECT_TRUE(plays_on());
   on_host(team->host(1), [&] {
     const bus::Participant decision{lenient(on_robot(keys.robot(1), "kick_decision"))};
     EXPECT_GT(say_orders(decision), 0u) << "with the decision's papers they listen";
   });
-  EXPECT_TRUE(team->wait_for(kAirTimeout, [&] { return heard() > 0; })) << "and take them for orders";
+  EXPECT_TRUE(team->wait_for(kAirTimeout, [&] { return received() > 0; })) << "and take them for orders";
   EXPECT_EQ(team->casualties(), "");
   team->stop();
 }

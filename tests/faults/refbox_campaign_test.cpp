@@ -14,9 +14,9 @@
 namespace trivela::faults {
 namespace {
 
+using hal::refbox::BoxCommand;
 using hal::refbox::BoxFault;
 using hal::refbox::CommandKind;
-using hal::refbox::Said;
 using testing::IsEmpty;
 
 enum class LinkTrouble { kClose, kReset, kDeaf, kFlood, kKill, kStop, kRestart };
@@ -60,7 +60,7 @@ class RefboxCampaign : public testing::Test {
     return met;
   }
 
-  void say(CommandKind kind) { box_.act(Said{.kind = kind, .team = {}}); }
+  void say(CommandKind kind) { box_.act(BoxCommand{.kind = kind, .team = {}}); }
 
   bool starts() {
     rig_.note_word(steady_now_ns(), true);
@@ -150,7 +150,7 @@ TEST_F(RefboxCampaign, ALostBoxIsAStopWithinHalfASecondAndNothingFiresUntilANewS
     ASSERT_TRUE(starts()) << refbox_->errors();
   }
   EXPECT_EQ(rig_.end(), "");
-  const JudgedPulses judged = judge_pulses(rig_.story());
+  const JudgedPulses judged = judge_pulses(rig_.timeline());
   EXPECT_THAT(judged.complaints, IsEmpty());
   EXPECT_THAT(unlogged(judged.kicks, rig_.log()), IsEmpty());
   EXPECT_GE(judged.kicks.size(), rounds) << "at least a kick a round, or this says nothing";

@@ -190,15 +190,15 @@ void Stack::sound() {
   if (hub_) hub_->set({});
 }
 
-void Stack::hear(Witness& witness) {
-  if (!witness.words->hear([&](const std::string& line) { witness.testimony.note(line); }))
+void Stack::receive(Witness& witness) {
+  if (!witness.words->receive([&](const std::string& line) { witness.testimony.note(line); }))
     throw std::runtime_error{"a witness is gone"};
 }
 
 void Stack::hear_referee() {
   if (!referee_words_) return;
   constexpr std::string_view kWriter = "writer ";
-  referee_words_->hear([&](const std::string& line) {
+  referee_words_->receive([&](const std::string& line) {
     const auto writer =
         line.starts_with(kWriter) ? guid_of(std::string_view{line}.substr(kWriter.size())) : std::nullopt;
     if (!writer) throw std::runtime_error{fmt::format("the referee says \"{}\"", line)};
@@ -209,8 +209,8 @@ void Stack::hear_referee() {
 bool Stack::listen(std::chrono::nanoseconds timeout, const std::function<bool()>& done) {
   const auto deadline = Clock::now() + timeout;
   for (;;) {
-    hear(device_);
-    hear(wire_);
+    receive(device_);
+    receive(wire_);
     hear_referee();
     if (done()) return true;
     const auto left = deadline - Clock::now();

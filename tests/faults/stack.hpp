@@ -87,7 +87,7 @@ class Stack {
   ProcessPlan plan_of(std::size_t node);
   void start_witness(Witness& witness, const char* name, int network);
   void start_referee();
-  void hear(Witness& witness);
+  void receive(Witness& witness);
   void hear_referee();
 
   StackPlan plan_;

@@ -12,8 +12,8 @@ bus::ReaderOptions everything() { return {.period = {}, .keep_all = true, .on_li
 
 }  // namespace
 
-struct StreamWitness::Ears {
-  explicit Ears(const config::Settings& settings)
+struct StreamWitness::Subscribers {
+  explicit Subscribers(const config::Settings& settings)
       : participant(bus::loopback(settings.domain.domain_id, settings.domain.tag)),
         wheels(participant, everything()),
         odometry(participant, everything()),
@@ -31,34 +31,36 @@ struct StreamWitness::Ears {
   bus::Reader<msg::KickDecision> decisions;
 };
 
-StreamWitness::StreamWitness(const config::Settings& settings) : ears_(std::make_unique<Ears>(settings)) {}
+StreamWitness::StreamWitness(const config::Settings& settings)
+    : subscribers_(std::make_unique<Subscribers>(settings)) {}
 StreamWitness::~StreamWitness() = default;
 
 std::vector<std::string> StreamWitness::deaf_within(std::chrono::milliseconds span) {
   const auto until = std::chrono::steady_clock::now() + span;
-  std::map<std::string, int> heard{{"odometry hears device/wheels", 0},      {"world_state hears odometry", 0},
-                                   {"world_state hears vision", 0},          {"kick_decision hears world_state", 0},
-                                   {"kicker_driver hears device/kicker", 0}, {"kick_decision hears kicker_status", 0},
-                                   {"the witness hears the simulator", 0}};
+  std::map<std::string, int> received{
+      {"odometry hears device/wheels", 0},      {"world_state hears odometry", 0},
+      {"world_state hears vision", 0},          {"kick_decision hears world_state", 0},
+      {"kicker_driver hears device/kicker", 0}, {"kick_decision hears kicker_status", 0},
+      {"the witness hears the simulator", 0}};
   int decided = 0;
   while (std::chrono::steady_clock::now() < until) {
-    ears_->wheels.wait(std::chrono::milliseconds{50});
-    ears_->wheels.take([&](const msg::DeviceWheels&) { ++heard["the witness hears the simulator"]; });
-    ears_->odometry.take([&](const msg::Odometry&) { ++heard["odometry hears device/wheels"]; });
-    ears_->world.take([&](const msg::WorldState& world) {
-      ++heard["world_state hears odometry"];
-      if (world.ball_known && world.ball_age_s < 0.3) ++heard["world_state hears vision"];
+    subscribers_->wheels.wait(std::chrono::milliseconds{50});
+    subscribers_->wheels.take([&](const msg::DeviceWheels&) { ++received["the witness hears the simulator"]; });
+    subscribers_->odometry.take([&](const msg::Odometry&) { ++received["odometry hears device/wheels"]; });
+    subscribers_->world.take([&](const msg::WorldState& world) {
+      ++received["world_state hears odometry"];
+      if (world.ball_known && world.ball_age_s < 0.3) ++received["world_state hears vision"];
     });
-    ears_->drive.take([&](const msg::DriveCommand&) { ++heard["kick_decision hears world_state"]; });
-    ears_->status.take([&](const msg::KickerStatus&) { ++heard["kicker_driver hears device/kicker"]; });
-    ears_->decisions.take([&](const msg::KickDecision& decision) {
+    subscribers_->drive.take([&](const msg::DriveCommand&) { ++received["kick_decision hears world_state"]; });
+    subscribers_->status.take([&](const msg::KickerStatus&) { ++received["kicker_driver hears device/kicker"]; });
+    subscribers_->decisions.take([&](const msg::KickDecision& decision) {
       ++decided;
-      if (decision.reason != msg::REASON_STALE_STATE) ++heard["kick_decision hears kicker_status"];
+      if (decision.reason != msg::REASON_STALE_STATE) ++received["kick_decision hears kicker_status"];
     });
   }
-  if (decided == 0) heard.erase("kick_decision hears kicker_status");
+  if (decided == 0) received.erase("kick_decision hears kicker_status");
   std::vector<std::string> deaf;
-  for (const auto& [stream, samples] : heard)
+  for (const auto& [stream, samples] : received)
     if (samples < 10) deaf.push_back(stream);
   return deaf;
 }

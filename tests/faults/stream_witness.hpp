@@ -22,8 +22,8 @@ class StreamWitness {
   std::vector<std::string> deaf_within(std::chrono::milliseconds span);
 
  private:
-  struct Ears;
-  std::unique_ptr<Ears> ears_;
+  struct Subscribers;
+  std::unique_ptr<Subscribers> subscribers_;
 };
 
 }  // namespace trivela::faults

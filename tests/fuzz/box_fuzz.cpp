@@ -20,25 +20,25 @@ namespace {
 using namespace trivela::hal::refbox;
 using trivela::tests::require;
 
-Side side_of(const Said& said) { return said.team ? Side::kOurs : Side::kBoth; }
+Side side_of(const BoxCommand& said) { return said.team ? Side::kOurs : Side::kBoth; }
 
-void hear_object(const Said& said, const BoxConfig& box) {
+void hear_object(const BoxCommand& said, const BoxConfig& box) {
   std::string object = wire_text(said, box);
   require(object.ends_with('\0'));
   object.pop_back();
-  const Word word = read_object(object, box.groups.at(said.team.value_or(0)));
-  const auto* const heard = std::get_if<Command>(&word);
-  require(heard != nullptr && heard->kind == said.kind && heard->side == side_of(said));
-  require(heard->robot_id == said.robot_id);
+  const ParsedCommand word = read_object(object, box.groups.at(said.team.value_or(0)));
+  const auto* const received = std::get_if<Command>(&word);
+  require(received != nullptr && received->kind == said.kind && received->side == side_of(said));
+  require(received->robot_id == said.robot_id);
 }
 
-void hear_letter(const Said& said, const BoxConfig& box) {
+void hear_letter(const BoxCommand& said, const BoxConfig& box) {
   const std::string letter = wire_text(said, box);
   if (letter.empty()) return;  // the old protocol has no word for it
   require(letter.size() == 1);
-  const Word word = read_letter(letter[0], said.team == std::size_t{1} ? Colour::kMagenta : Colour::kCyan);
-  const auto* const heard = std::get_if<Command>(&word);
-  require(heard != nullptr && heard->kind == said.kind && heard->side == side_of(said));
+  const ParsedCommand word = read_letter(letter[0], said.team == std::size_t{1} ? Colour::kMagenta : Colour::kCyan);
+  const auto* const received = std::get_if<Command>(&word);
+  require(received != nullptr && received->kind == said.kind && received->side == side_of(said));
 }
 
 void check(const std::vector<BoxStep>& steps) {
@@ -46,7 +46,7 @@ void check(const std::vector<BoxStep>& steps) {
   for (const BoxStep& step : steps) {
     require(std::isfinite(step.at_s) && step.at_s >= last_s);
     last_s = step.at_s;
-    const auto* const said = std::get_if<Said>(&step.act);
+    const auto* const said = std::get_if<BoxCommand>(&step.act);
     if (said == nullptr) continue;
     hear_object(*said, {});
     hear_letter(*said, {.protocol = Protocol::kLetters});

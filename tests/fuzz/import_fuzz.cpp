@@ -34,7 +34,7 @@ void read_team(const std::string& text, const RefereeLog& referee) {
   const TeamLog log = read_team_log(in, "x.A.msl");
   require(static_cast<std::int64_t>(log.usable.size()) <= log.records);
   for (const TeamRecord& record : log.usable) {
-    for (const ToldRobot& robot : record.robots)
+    for (const ReportedRobot& robot : record.robots)
       require(robot.id >= 0 && robot.id <= 255 && std::abs(robot.x_m) <= 50.0 && std::abs(robot.heading_rad) < 3.2);
   }
   const auto times_ms = record_times_ms(log, &referee);

@@ -16,11 +16,11 @@ namespace {
 using namespace trivela::hal::refbox;
 using trivela::tests::require;
 
-std::vector<Word> words_of(const TeamMarks& team, std::string_view bytes, std::size_t piece) {
+std::vector<ParsedCommand> words_of(const TeamMarks& team, std::string_view bytes, std::size_t piece) {
   CommandStream stream(team);
-  std::vector<Word> words;
+  std::vector<ParsedCommand> words;
   while (!bytes.empty()) {
-    for (Word& word : stream.add(bytes.substr(0, piece))) words.push_back(std::move(word));
+    for (ParsedCommand& word : stream.add(bytes.substr(0, piece))) words.push_back(std::move(word));
     bytes.remove_prefix(std::min(piece, bytes.size()));
   }
   return words;
@@ -33,9 +33,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 2, size - 2);
   const TeamMarks team{data[0] % 2 == 0 ? Protocol::kJson : Protocol::kLetters, "224.16.32.39",
                        data[0] % 4 < 2 ? Colour::kCyan : Colour::kMagenta};
-  const std::vector<Word> whole = words_of(team, bytes, bytes.size() + 1);
+  const std::vector<ParsedCommand> whole = words_of(team, bytes, bytes.size() + 1);
   require(whole == words_of(team, bytes, std::size_t{1} + data[1] % 64));
-  for (const Word& word : whole) {
+  for (const ParsedCommand& word : whole) {
     if (const auto* const none = std::get_if<NoCommand>(&word)) require(!none->why.empty());
   }
   Framing framing;

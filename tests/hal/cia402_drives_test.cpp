@@ -93,15 +93,15 @@ TEST_F(Cia402DrivesTest, StandsStillUntilEveryDriveIsInOperation) {
 
 TEST_F(Cia402DrivesTest, WithoutOurHeartbeatTheWheelsStandByThemselves) {
   turn_on_the_spot();
-  std::int64_t heard_ns[3];
-  for (std::size_t i = 0; i < 3; ++i) heard_ns[i] = bus_.drives.drives()[i].heard_ns();
+  std::int64_t received_ns[3];
+  for (std::size_t i = 0; i < 3; ++i) received_ns[i] = bus_.drives.drives()[i].received_ns();
   bus_.stall(2.0);
   const auto ramp_ns = std::llround(kTurning_rpm / 10000.0 * 1e9) + kMs;
   for (std::size_t i = 0; i < 3; ++i) {
     const EmulatedDrive& drive = bus_.drives.drives()[i];
     EXPECT_EQ(drive.state(), DriveState::kFault);
     ASSERT_TRUE(drive.rest_ns());
-    EXPECT_LE(*drive.rest_ns(), heard_ns[i] + 200 * kMs + ramp_ns);
+    EXPECT_LE(*drive.rest_ns(), received_ns[i] + 200 * kMs + ramp_ns);
   }
 }
 

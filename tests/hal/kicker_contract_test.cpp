@@ -279,7 +279,7 @@ TEST(BusKicker, HasChargedWhatCanBeToldToAndEmptiesItInTheEnd) {
   BusRig rig;
   bus::Reader<msg::DeviceCharge> words{rig.world.there};
   ASSERT_TRUE(words.wait_for_writers(2, kPlenty));  // the marker's, too
-  const auto heard = [&] {
+  const auto received = [&] {
     msg::DeviceCharge last{};
     EXPECT_TRUE(words.wait(kPlenty));
     words.take([&](const msg::DeviceCharge& word) { last = word; });
@@ -293,19 +293,19 @@ TEST(BusKicker, HasChargedWhatCanBeToldToAndEmptiesItInTheEnd) {
   rig.world.samples.write(sample);
   ASSERT_TRUE(rig.device->read(kPlenty));
   rig.device->charge(ChargeCommand::kCharge);
-  const msg::DeviceCharge up = heard();
+  const msg::DeviceCharge up = received();
   EXPECT_EQ(up.word, msg::CHARGE_UP);
   EXPECT_EQ(up.robot_id, kRobot);
   EXPECT_EQ(up.seq, 1u);
   EXPECT_LE(up.t_ns, tests::steady_ns());
   EXPECT_GT(up.t_ns, tests::steady_ns() - 60'000'000'000);
   rig.device->charge(ChargeCommand::kHold);
-  EXPECT_EQ(heard().word, msg::CHARGE_HOLD);
+  EXPECT_EQ(received().word, msg::CHARGE_HOLD);
   rig.device->make_safe();
-  EXPECT_EQ(heard().word, msg::CHARGE_EMPTY);
+  EXPECT_EQ(received().word, msg::CHARGE_EMPTY);
   rig.device->charge(ChargeCommand::kCharge);
   rig.device.reset();  // safe once more
-  const msg::DeviceCharge last = heard();
+  const msg::DeviceCharge last = received();
   EXPECT_EQ(last.word, msg::CHARGE_EMPTY);
   EXPECT_EQ(last.seq, 4u);
 }

@@ -84,7 +84,7 @@ TEST(MtiMessage, WhosePartsDoNotFillItIsNone) {
 
 class MtiTest : public testing::Test {
  protected:
-  void hear(const Reading& reading, std::int64_t t_ms) {
+  void receive(const Reading& reading, std::int64_t t_ms) {
     end_.incoming += encode(message_of(reading));
     mti_.step(t_ms * kMs);
   }
@@ -94,16 +94,16 @@ class MtiTest : public testing::Test {
 };
 
 TEST_F(MtiTest, ASampleIsOfItsSampleTimeHoweverLateItWasRead) {
-  hear({.sample_time = 1000, .rate_radps = {{0, 0, 0.5}}}, 100);
+  receive({.sample_time = 1000, .rate_radps = {{0, 0, 0.5}}}, 100);
   EXPECT_EQ(mti_.newest()->t_ns, 100 * kMs);
-  hear({.sample_time = 1100, .rate_radps = {{0, 0, 0.75}}}, 150);
+  receive({.sample_time = 1100, .rate_radps = {{0, 0, 0.75}}}, 150);
   EXPECT_NEAR(static_cast<double>(mti_.newest()->t_ns), 110e6, 1e4) << "by its clock 10 ms later";
   EXPECT_EQ(mti_.newest()->gyro_radps, 0.75);
   EXPECT_EQ(mti_.status(), "/dev/ttyTEST: MTi");
 }
 
 TEST_F(MtiTest, WithoutASampleTimeItIsOfItsArrival) {
-  hear({.sample_time = {}, .rate_radps = {{0, 0, 0.5}}}, 100);
+  receive({.sample_time = {}, .rate_radps = {{0, 0, 0.5}}}, 100);
   EXPECT_EQ(mti_.newest()->t_ns, 100 * kMs);
   EXPECT_THAT(mti_.status(), HasSubstr("without its sample time"));
 }
@@ -116,18 +116,18 @@ TEST_F(MtiTest, UpsideDownItTurnsTheOtherWay) {
 }
 
 TEST_F(MtiTest, SaysWhatIsMissingInItsSettings) {
-  hear({.sample_time = 1, .rate_radps = {}}, 1);
+  receive({.sample_time = 1, .rate_radps = {}}, 1);
   EXPECT_FALSE(mti_.newest());
   EXPECT_EQ(mti_.status(), "/dev/ttyTEST: no rate of turn (0x8020) in what it says: switch it on");
 }
 
 TEST_F(MtiTest, ANumberThatIsNoneIsNoSample) {
-  hear({.sample_time = 1, .rate_radps = {{0, 0, std::numeric_limits<double>::quiet_NaN()}}}, 1);
+  receive({.sample_time = 1, .rate_radps = {{0, 0, std::numeric_limits<double>::quiet_NaN()}}}, 1);
   EXPECT_FALSE(mti_.newest());
 }
 
 TEST_F(MtiTest, SilenceIsSaidAndTheLineOpenedAgain) {
-  hear({.sample_time = 1, .rate_radps = {{0, 0, 0.5}}}, 1);
+  receive({.sample_time = 1, .rate_radps = {{0, 0, 0.5}}}, 1);
   EXPECT_EQ(mti_.next_ns(), 501 * kMs);
   mti_.step(501 * kMs);
   EXPECT_EQ(mti_.status(),

@@ -19,7 +19,7 @@ TEST(RefboxClient, HearsCommandsOfBothTeamsAndOfOurs) {
   EXPECT_EQ(link.next<Command>(), (Command{CommandKind::kKickOff, Side::kOurs, {}}));
   link.say(CommandKind::kGoal, 1);
   EXPECT_EQ(link.next<Command>(), (Command{CommandKind::kGoal, Side::kTheirs, {}}));
-  link.box.act(Said{CommandKind::kSubstitution, 0, 4});
+  link.box.act(BoxCommand{CommandKind::kSubstitution, 0, 4});
   EXPECT_EQ(link.next<Command>(), (Command{CommandKind::kSubstitution, Side::kOurs, 4}));
   link.say(CommandKind::kStart);
   EXPECT_EQ(link.next<Command>(), (Command{CommandKind::kStart, Side::kBoth, {}}));

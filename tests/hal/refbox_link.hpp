@@ -60,7 +60,7 @@ class BoxLink {
   }
 
   void say(hal::refbox::CommandKind kind, std::optional<std::size_t> team = {}) {
-    box.act(hal::refbox::Said{.kind = kind, .team = team});
+    box.act(hal::refbox::BoxCommand{.kind = kind, .team = team});
   }
 
   hal::refbox::EmulatedBox box;

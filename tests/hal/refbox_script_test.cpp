@@ -25,11 +25,11 @@ TEST(BoxScript, IsALineAnAct) {
       "s.txt");
   ASSERT_EQ(steps.size(), 5U);
   EXPECT_EQ(steps[0].at_s, 0.0);
-  EXPECT_EQ(std::get<Said>(steps[0].act), (Said{CommandKind::kFirstHalf, {}, {}}));
-  EXPECT_EQ(std::get<Said>(steps[1].act), (Said{CommandKind::kKickOff, 0, {}}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[0].act), (BoxCommand{CommandKind::kFirstHalf, {}, {}}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[1].act), (BoxCommand{CommandKind::kKickOff, 0, {}}));
   EXPECT_EQ(steps[2].at_s, 1.5);
   EXPECT_EQ(std::get<BoxFault>(steps[3].act), BoxFault::kSplit);
-  EXPECT_EQ(std::get<Said>(steps[4].act), (Said{CommandKind::kSubstitution, 1, 5}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[4].act), (BoxCommand{CommandKind::kSubstitution, 1, 5}));
   EXPECT_TRUE(read_box_script("", "s.txt").empty());
 }
 
@@ -64,10 +64,10 @@ TEST(BoxLog, OfLettersHasItsTeamsByColour) {
       "a.msl");
   ASSERT_EQ(steps.size(), 4U);
   EXPECT_EQ(steps[0].at_s, 0.0);
-  EXPECT_EQ(std::get<Said>(steps[0].act), (Said{CommandKind::kKickOff, 1, {}}));
-  EXPECT_EQ(std::get<Said>(steps[1].act), (Said{CommandKind::kFirstHalf, {}, {}}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[0].act), (BoxCommand{CommandKind::kKickOff, 1, {}}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[1].act), (BoxCommand{CommandKind::kFirstHalf, {}, {}}));
   EXPECT_DOUBLE_EQ(steps[2].at_s, 8.067);
-  EXPECT_EQ(std::get<Said>(steps[3].act), (Said{CommandKind::kGoal, 0, {}}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[3].act), (BoxCommand{CommandKind::kGoal, 0, {}}));
 }
 
 TEST(BoxLog, OfObjectsHasItsTeamsByTheirGroups) {
@@ -80,10 +80,10 @@ TEST(BoxLog, OfObjectsHasItsTeamsByTheirGroups) {
                    "\n4000,00:03(00:02),1st Half - STOP,CORNER,Corner\n5000,x,y,DANCE,?\n",
                    "b.msl");
   ASSERT_EQ(steps.size(), 4U);
-  EXPECT_EQ(std::get<Said>(steps[0].act), (Said{CommandKind::kKickOff, 0, {}}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[0].act), (BoxCommand{CommandKind::kKickOff, 0, {}}));
   EXPECT_EQ(steps[1].at_s, 0.0) << "its clock was set back";
-  EXPECT_EQ(std::get<Said>(steps[2].act), (Said{CommandKind::kGoal, 1, {}}));
-  EXPECT_EQ(std::get<Said>(steps[3].act), (Said{CommandKind::kCorner, {}, {}}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[2].act), (BoxCommand{CommandKind::kGoal, 1, {}}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[3].act), (BoxCommand{CommandKind::kCorner, {}, {}}));
 }
 
 TEST(BoxLog, OfWordsHasItsTeamsByTheirNames) {
@@ -94,10 +94,10 @@ TEST(BoxLog, OfWordsHasItsTeamsByTheirNames) {
       "1721384256000,01:26(01:05),1st Half - STOP,Repair,robotID:3,TeamB\n",
       "e.msl");
   ASSERT_EQ(steps.size(), 4U);
-  EXPECT_EQ(std::get<Said>(steps[0].act), (Said{CommandKind::kKickOff, 0, {}}));
-  EXPECT_EQ(std::get<Said>(steps[1].act), (Said{CommandKind::kStart, {}, {}}));
-  EXPECT_EQ(std::get<Said>(steps[2].act), (Said{CommandKind::kThrowIn, 1, {}}));
-  EXPECT_EQ(std::get<Said>(steps[3].act), (Said{CommandKind::kRepair, 1, 3}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[0].act), (BoxCommand{CommandKind::kKickOff, 0, {}}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[1].act), (BoxCommand{CommandKind::kStart, {}, {}}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[2].act), (BoxCommand{CommandKind::kThrowIn, 1, {}}));
+  EXPECT_EQ(std::get<BoxCommand>(steps[3].act), (BoxCommand{CommandKind::kRepair, 1, 3}));
 }
 
 TEST(BoxLog, TimesFarApartAreASpanLikeAnyOther) {
@@ -114,13 +114,13 @@ TEST(BoxLog, WithoutACommandIsNone) {
 }
 
 TEST(BoxKeys, AreTheOldLettersOfTheLeftTeamInUpperCaseAndOfTheRightOneInLowerCase) {
-  const auto said = [](char key) { return std::get<Said>(act_of_key(key).value()); };
-  EXPECT_EQ(said('s'), (Said{CommandKind::kStart, {}, {}}));
-  EXPECT_EQ(said('S'), (Said{CommandKind::kStop, {}, {}}));
-  EXPECT_EQ(said(' '), (Said{CommandKind::kStop, {}, {}}));
-  EXPECT_EQ(said('K'), (Said{CommandKind::kKickOff, 0, {}}));
-  EXPECT_EQ(said('k'), (Said{CommandKind::kKickOff, 1, {}}));
-  EXPECT_EQ(said('E'), (Said{CommandKind::kEndPart, {}, {}}));
+  const auto said = [](char key) { return std::get<BoxCommand>(act_of_key(key).value()); };
+  EXPECT_EQ(said('s'), (BoxCommand{CommandKind::kStart, {}, {}}));
+  EXPECT_EQ(said('S'), (BoxCommand{CommandKind::kStop, {}, {}}));
+  EXPECT_EQ(said(' '), (BoxCommand{CommandKind::kStop, {}, {}}));
+  EXPECT_EQ(said('K'), (BoxCommand{CommandKind::kKickOff, 0, {}}));
+  EXPECT_EQ(said('k'), (BoxCommand{CommandKind::kKickOff, 1, {}}));
+  EXPECT_EQ(said('E'), (BoxCommand{CommandKind::kEndPart, {}, {}}));
 }
 
 TEST(BoxKeys, ReachEveryFaultAndNothingElseUnderAnUnknownKey) {

@@ -14,13 +14,13 @@ using namespace std::string_literals;
 
 constexpr const char* kGroup = "224.16.32.39";
 
-Command command_of(const Word& word) {
+Command command_of(const ParsedCommand& word) {
   if (const auto* none = std::get_if<NoCommand>(&word)) ADD_FAILURE() << none->why;
   return std::holds_alternative<Command>(word) ? std::get<Command>(word) : Command{};
 }
 Command command_of(const std::string& object) { return command_of(read_object(object, kGroup)); }
 
-std::string why(const Word& word) {
+std::string why(const ParsedCommand& word) {
   EXPECT_TRUE(std::holds_alternative<NoCommand>(word)) << "it is a command";
   return std::holds_alternative<NoCommand>(word) ? std::get<NoCommand>(word).why : "";
 }
@@ -100,7 +100,7 @@ TEST(RefboxWords, GarbageIsNoCommand) {
     std::string bad = good;
     for (int hits = 1 + static_cast<int>(random() % 3); hits > 0; --hits)
       bad[random() % bad.size()] = static_cast<char>(random());
-    const Word word = read_object(bad, kGroup);  // whatever it is, it ends
+    const ParsedCommand word = read_object(bad, kGroup);  // whatever it is, it ends
     refused += std::holds_alternative<NoCommand>(word) ? 1 : 0;
   }
   EXPECT_GT(refused, 10'000);

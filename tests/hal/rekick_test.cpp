@@ -21,13 +21,13 @@ const std::string kAsksState = can::encode(ask(Command::kGetState));
 class ReKickTest : public testing::Test {
  protected:
   void step(std::int64_t t_ms) { board_.step(t_ms * kMs); }
-  void hear(const can::Frame& frame, std::int64_t t_ms) {
+  void receive(const can::Frame& frame, std::int64_t t_ms) {
     end_.incoming += can::encode(frame);
     step(t_ms);
   }
   void bring_up() {
     step(0);
-    hear(frame_of({.supply_on = true, .capacitor_v = 330.0}), 1);
+    receive(frame_of({.supply_on = true, .capacitor_v = 330.0}), 1);
     ASSERT_TRUE(board_.up()) << board_.status();
     board_.take_sample();
     end_.written.clear();
@@ -48,7 +48,7 @@ TEST_F(ReKickTest, TellsItsVoltagePingsAndAsksWhenTheBusIsOpened) {
 TEST_F(ReKickTest, ASampleIsTheStateAtTheInstantOfTheQuestion) {
   bring_up();
   step(20);
-  hear(frame_of({.supply_on = true, .capacitor_v = 165.0}), 70);
+  receive(frame_of({.supply_on = true, .capacitor_v = 165.0}), 70);
   const KickerSample said = sample();
   EXPECT_EQ(said.t_ns, 20 * kMs);
   EXPECT_DOUBLE_EQ(said.charge, 0.25);
@@ -61,7 +61,7 @@ TEST_F(ReKickTest, ASampleIsTheStateAtTheInstantOfTheQuestion) {
 TEST_F(ReKickTest, OvervoltageErrorAndMissingSupplyShow) {
   bring_up();
   step(20);
-  hear(frame_of({.supply_on = false, .error = true, .capacitor_v = 340.0}), 21);
+  receive(frame_of({.supply_on = false, .error = true, .capacitor_v = 340.0}), 21);
   const KickerSample said = sample();
   EXPECT_GT(said.charge, 1.05);
   EXPECT_FALSE(said.armed);
@@ -71,9 +71,9 @@ TEST_F(ReKickTest, OvervoltageErrorAndMissingSupplyShow) {
 TEST_F(ReKickTest, IsEmulatedWhereItsAnswerToAPingSaysSo) {
   bring_up();
   const auto emulated_after = [this](const can::Frame& pong, std::int64_t t_ms) {
-    hear(pong, t_ms);
+    receive(pong, t_ms);
     step(t_ms + 20);
-    hear(frame_of({.supply_on = true}), t_ms + 21);
+    receive(frame_of({.supply_on = true}), t_ms + 21);
     return sample().emulated;
   };
   EXPECT_FALSE(emulated_after(from_board({0xF1}), 20));
@@ -104,7 +104,7 @@ TEST_F(ReKickTest, SendsNoKickToABusThatHasNotAnsweredForAWhile) {
   end_.written.clear();
   EXPECT_EQ(board_.shoot(30.0, 51 * kMs), "the board has not answered for 31 ms");
   EXPECT_TRUE(end_.written.empty());
-  hear(frame_of({.supply_on = true, .capacitor_v = 330.0}), 52);
+  receive(frame_of({.supply_on = true, .capacitor_v = 330.0}), 52);
   EXPECT_EQ(board_.shoot(30.0, 53 * kMs), "");
 }
 
@@ -125,7 +125,7 @@ TEST_F(ReKickTest, SaysWhenItIsToBeCalledAgain) {
   EXPECT_EQ(board_.next_ns(), 20 * kMs);
   step(20);
   EXPECT_EQ(board_.next_ns(), 120 * kMs) << "an answer is awaited";
-  hear(frame_of({.supply_on = true}), 22);
+  receive(frame_of({.supply_on = true}), 22);
   EXPECT_EQ(board_.next_ns(), 40 * kMs);
 }
 
@@ -133,15 +133,15 @@ TEST_F(ReKickTest, ASecondAnswerToAQuestionAskedTwiceIsNoSample) {
   bring_up();
   step(20);
   step(120);
-  hear(frame_of({.supply_on = true}), 121);
+  receive(frame_of({.supply_on = true}), 121);
   EXPECT_EQ(sample().t_ns, 20 * kMs);
-  hear(frame_of({.supply_on = true}), 122);
+  receive(frame_of({.supply_on = true}), 122);
   EXPECT_FALSE(board_.take_sample());
 }
 
 TEST_F(ReKickTest, BusOffIsALinkFaultInWords) {
   bring_up();
-  hear({.id = CAN_ERR_BUSOFF, .error = true}, 2);
+  receive({.id = CAN_ERR_BUSOFF, .error = true}, 2);
   EXPECT_FALSE(board_.up());
   EXPECT_EQ(board_.status(), "/dev/ttyTEST: bus off");
   step(202);
@@ -150,23 +150,23 @@ TEST_F(ReKickTest, BusOffIsALinkFaultInWords) {
 
 TEST_F(ReKickTest, AResetBoardIsToldItsVoltageAgain) {
   bring_up();
-  hear(from_board({0xF4, 2}), 2);
+  receive(from_board({0xF4, 2}), 2);
   EXPECT_THAT(end_.written, ElementsAre(can::encode(max_voltage(330))));
   EXPECT_EQ(board_.status(), "/dev/ttyTEST: the board was reset: brown-out");
 }
 
 TEST_F(ReKickTest, WhatTheBoardWritesIsReadUpToTheEndOfItsLine) {
   bring_up();
-  hear(from_board({0x21, 'c', 'o', 'i', 'l'}), 2);
+  receive(from_board({0x21, 'c', 'o', 'i', 'l'}), 2);
   EXPECT_EQ(board_.status(), "/dev/ttyTEST: ReKick");
-  hear(from_board({0x21, ' ', 'h', 'o', 't', '\n'}), 3);
+  receive(from_board({0x21, ' ', 'h', 'o', 't', '\n'}), 3);
   EXPECT_EQ(board_.status(), "/dev/ttyTEST: the board says: coil hot");
 }
 
 TEST_F(ReKickTest, OthersOfTheBusSayNothing) {
   bring_up();
   step(20);
-  hear(can::extended_frame(0x40A000, {0xF2, 0xFF, 0, 0, 1}), 21);
+  receive(can::extended_frame(0x40A000, {0xF2, 0xFF, 0, 0, 1}), 21);
   EXPECT_FALSE(board_.take_sample());
   EXPECT_TRUE(board_.up());
 }

@@ -117,8 +117,8 @@ TEST_F(Interop, EachFieldOfADecisionIsReadAsItWasWritten) {
   bus::visit_fields(decision, different);
   decision.offset_right_m = std::nan("");
   const Repeated repeated{[&] { decisions.write(decision); }};
-  const bool heard = peer->says("\nend\n");
-  ASSERT_TRUE(heard) << peer->said() << bridge->said();
+  const bool received = peer->says("\nend\n");
+  ASSERT_TRUE(received) << peer->said() << bridge->said();
   EXPECT_THAT(peer->said(), HasSubstr(text_of(decision)));
 }
 

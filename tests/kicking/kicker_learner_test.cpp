@@ -283,22 +283,22 @@ TEST(CorrectedModel, StaysInTheRangesOfARobotsFile) {
 }
 
 TEST(KickerEstimate, IsSoundWhereAllIsFiniteAndNoErrorNegative) {
-  EXPECT_TRUE(sound(KickerEstimate{}));
+  EXPECT_TRUE(valid(KickerEstimate{}));
   KickerEstimate bad;
   bad.mean[kDelayPart] = kNaN;
-  EXPECT_FALSE(sound(bad));
+  EXPECT_FALSE(valid(bad));
   bad = {};
   bad.se[kAlongPart] = -0.1;
-  EXPECT_FALSE(sound(bad));
+  EXPECT_FALSE(valid(bad));
   bad = {};
   bad.mean[kSpeedPart] = 1e300;
-  EXPECT_FALSE(sound(bad));
+  EXPECT_FALSE(valid(bad));
   bad = {};
   bad.se[kSpeedPart] = kNaN;
-  EXPECT_FALSE(sound(bad));
+  EXPECT_FALSE(valid(bad));
   bad = {};
   bad.direction_sd_rad = kNaN;
-  EXPECT_FALSE(sound(bad));
+  EXPECT_FALSE(valid(bad));
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ TEST(OwnPolicy, ThatReturnsNonsenseNeitherKicksNorDrives) {
   EXPECT_EQ(said([](PolicyOutput& out) { out.kick_kind = 200; }).reason, Reason::kOutOfRange);
   for (const double after_s : {1e9, -3.0})
     EXPECT_EQ(said([&](PolicyOutput& out) { out.fire_after_s = after_s; }).reason, Reason::kOutOfRange);
-  for (Maybe PolicyOutput::*p : {&PolicyOutput::p_on_target, &PolicyOutput::p_goal})
+  for (OptionalDouble PolicyOutput::*p : {&PolicyOutput::p_on_target, &PolicyOutput::p_goal})
     EXPECT_FALSE(said([&](PolicyOutput& out) { out.*p = 9.0; }).*p);
   for (double PolicyOutput::*number :
        {&PolicyOutput::target_x_m, &PolicyOutput::target_y_m, &PolicyOutput::target_z_m, &PolicyOutput::alpha_rad,

@@ -105,8 +105,8 @@ TEST_F(Board, KeepsFewOfManyThatLeft) {
 
 TEST_F(Board, ShowsOneRobotOfATeam) {
   BusSnapshot second = board(2);
-  second.hear("kick_order", 1, {1, 1, 0, 0, kSecond, kSecond});
-  second.hear("kick_order", 2, {2, 1, 0, 0, kSecond, kSecond});
+  second.receive("kick_order", 1, {1, 1, 0, 0, kSecond, kSecond});
+  second.receive("kick_order", 2, {2, 1, 0, 0, kSecond, kSecond});
   const BusPicture picture = look(second);
   EXPECT_THAT(picture.topics[0].robots, SizeIs(1));
   EXPECT_TRUE(picture.topics[0].robots.contains(2));
@@ -117,8 +117,8 @@ TEST_F(Board, ShowsOneRobotOfATeam) {
 TEST_F(Board, DoesNotGrowWithUnknownNumbersAndTopics) {
   BusSnapshot full = board();
   for (int robot = 0; robot < 256; ++robot)
-    full.hear("referee", static_cast<std::uint8_t>(robot), {1, 1, 0, 0, kSecond, kSecond});
-  full.hear("no_such_topic", 1, {1, 1, 0, 0, kSecond, kSecond});
+    full.receive("referee", static_cast<std::uint8_t>(robot), {1, 1, 0, 0, kSecond, kSecond});
+  full.receive("no_such_topic", 1, {1, 1, 0, 0, kSecond, kSecond});
   EXPECT_THAT(look(full).topics[1].robots, SizeIs(32));
 }
 

@@ -16,7 +16,7 @@ constexpr double kPeriod_s = 0.02;
 /// A stream of robot 1 with a sample each 20 ms, 0.1 ms under way.
 class Stream : public testing::Test {
  protected:
-  Heard at(std::int64_t ms, std::optional<std::uint64_t> seq, std::uint64_t writer = 1) const {
+  ReceivedSample at(std::int64_t ms, std::optional<std::uint64_t> seq, std::uint64_t writer = 1) const {
     const std::int64_t now = kStart + ms * kMs;
     return {writer, seq, now - 3 * kMs, now - kMs / 10, now, now};
   }
@@ -59,7 +59,7 @@ TEST_F(Stream, ForgetsTheRateOfAWriterThatFellSilent) {
 
 TEST_F(Stream, TellsLatencyFromTheSourceTimestampAndAgeFromTheMessage) {
   play(1, 99);
-  Heard slow = at(2000, 100);
+  ReceivedSample slow = at(2000, 100);
   slow.source_ns -= 5 * kMs;
   statistics.see(1, slow);
   EXPECT_THAT(after(2000).latency_p50_us, Optional(DoubleNear(100.0, 0.01)));
@@ -69,10 +69,10 @@ TEST_F(Stream, TellsLatencyFromTheSourceTimestampAndAgeFromTheMessage) {
 }
 
 TEST_F(Stream, HasNoAgeWhereItsInstantsAreOfAnotherClock) {
-  Heard lockstep = at(0, 1);
+  ReceivedSample lockstep = at(0, 1);
   lockstep.t_ns = 20 * kMs;
   statistics.see(1, lockstep);
-  Heard ahead = at(20, 2);
+  ReceivedSample ahead = at(20, 2);
   ahead.t_ns = ahead.received_ns + 1;
   statistics.see(1, ahead);
   EXPECT_EQ(after(20).age_p50_ms, std::nullopt);

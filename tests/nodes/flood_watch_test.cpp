@@ -50,8 +50,8 @@ TEST(FloodWatch, LeavesAProcessBelowItsLimitAlone) {
 }
 
 /// A thread that is called as that of the library's handshakes, and turns.
-template <class Turn>
-std::jthread handshakes(Turn turn) {
+template <class Deadline>
+std::jthread handshakes(Deadline turn) {
   return std::jthread{[turn](const std::stop_token& over) {
     pthread_setname_np(pthread_self(), FloodWatch::kHandshakes);
     while (!over.stop_requested()) turn();

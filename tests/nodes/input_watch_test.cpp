@@ -47,8 +47,8 @@ TEST_F(InputWatchTest, AnInputThatFallsSilentAndComesBackHasALineAtEachEnd) {
         EXPECT_TRUE(log_lines->wait_for("odometry back after 0."));
         EXPECT_TRUE(log_lines->wait_for("referee back after "));
       } else {
-        Heard<msg::Odometry>{participant}.first(5);
-        Heard<msg::Referee>{participant}.first(5);
+        Received<msg::Odometry>{participant}.first(5);
+        Received<msg::Referee>{participant}.first(5);
       }
     }
     if (i == 0) {

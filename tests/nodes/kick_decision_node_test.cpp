@@ -54,9 +54,9 @@ class KickDecisionNodeTest : public NodeTest {
   std::int64_t t_ns = 1'000'000'000;
   std::int64_t world_age_ns = 0;
   std::size_t cycles = 0;
-  Heard<msg::KickDecision> decision{participant};
-  Heard<msg::KickOrder> order{participant};
-  Heard<msg::DriveCommand> drive{participant};
+  Received<msg::KickDecision> decision{participant};
+  Received<msg::KickOrder> order{participant};
+  Received<msg::DriveCommand> drive{participant};
   Says<msg::WorldState> world_says{participant};
   Says<msg::KickerStatus> kicker_says{participant};
   std::optional<KickDecisionNode> node;
@@ -195,13 +195,13 @@ TEST_F(KickDecisionNodeTest, OneFireIsOneOrder) {
 TEST_F(KickDecisionNodeTest, InASetPieceOfOursItDoesNotWaitForWhatComesTooLate) {
   context.settings.policy.rules.set_piece_s = 0.1;
   context.settings.kick_decision.policy_by_half = {kicking::PolicyName::kPredictive};
-  Says<msg::Referee> referee_says{participant};
+  Says<msg::Referee> referee_permission{participant};
   start();
   msg::Referee word{};
   word.t_ns = t_ns;
   word.restart = msg::RESTART_FREEKICK;
   word.ours = true;
-  referee_says(word);
+  referee_permission(word);
   auto stopped = world(0.8);
   stopped.playing = false;
   cycle(stopped);
@@ -209,7 +209,7 @@ TEST_F(KickDecisionNodeTest, InASetPieceOfOursItDoesNotWaitForWhatComesTooLate) 
   word.playing = true;
   word.restart = msg::RESTART_NONE;
   word.ours = false;
-  referee_says(word);
+  referee_permission(word);
   cycle(world(0.8));
   t_ns += 100'000'000;
   cycle(world(0.8));

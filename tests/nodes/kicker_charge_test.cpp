@@ -44,7 +44,7 @@ class KickerCharge : public NodeTest {
   std::int64_t t_ns = 1'000'000'000;
   std::size_t samples = 0;
   bool decides = true;  // a decision node is there
-  Heard<msg::KickerStatus> status{participant};
+  Received<msg::KickerStatus> status{participant};
   Says<msg::Referee> referee{participant};
   Says<msg::DriveCommand> decision{participant, 1, "kick_decision/1"};
   std::optional<KickerDriverNode> node;

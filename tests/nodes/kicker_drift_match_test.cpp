@@ -43,7 +43,7 @@ class KickerDriftMatchTest : public NodeTest {
     experiment::MatchRecord record;
     experiment::play_match(plan.scenario, plan.arms[0], plan.seed, 0, plan.possessions, {}, &record);
     KickerDriftNode node{context};
-    Heard<msg::KickerDrift> heard{participant};
+    Received<msg::KickerDrift> received{participant};
     const Running running{bus::Executor::kListener, stop, {&node.node()}};
     std::multimap<std::int64_t, std::function<void()>> words;
     const auto add = [&](auto& writer, const auto& messages) {
@@ -53,7 +53,7 @@ class KickerDriftMatchTest : public NodeTest {
     add(receipts, record.receipts);
     add(outcomes, record.outcomes);
     for (const auto& [t_ns, say] : words) say();
-    return heard.now();
+    return received.now();
   }
 
   tests::Folder folder;
@@ -69,10 +69,10 @@ TEST_P(KickerDriftMatchOf, NodeAndVerbNameTheSameKicks) {
   const auto plan = failing(std::get<0>(GetParam()), std::get<1>(GetParam()));
   const evaluator::RobotDrift verb = as_the_verb_says(plan);
   const std::vector<msg::KickerDrift> node = as_the_node_says(plan);
-  ASSERT_FALSE(verb.story.drifts.empty());
-  ASSERT_EQ(node.size(), verb.story.drifts.size());
+  ASSERT_FALSE(verb.timeline.drifts.empty());
+  ASSERT_EQ(node.size(), verb.timeline.drifts.size());
   for (std::size_t i = 0; i < node.size(); ++i) {
-    const evaluator::Drift& drift = verb.story.drifts[i];
+    const evaluator::Drift& drift = verb.timeline.drifts[i];
     EXPECT_EQ(node[i].changes, i + 1);
     EXPECT_EQ(node[i].changed_kick_id, verb.kicks[drift.changed].kick_id);
     EXPECT_EQ(node[i].found_kick_id, verb.kicks[drift.found].kick_id);

@@ -73,7 +73,7 @@ class KickerDriftNodeTest : public NodeTest {
     outcome(kick.outcome());
   }
 
-  Heard<msg::KickerDrift> drift{participant};
+  Received<msg::KickerDrift> drift{participant};
   Says<msg::KickDecision> decision{participant};
   Says<msg::KickReceipt> receipt{participant};
   Says<msg::KickOutcome> outcome{participant};
@@ -112,7 +112,7 @@ TEST_F(KickerDriftNodeTest, TellsWhoJoinsLater) {
   start();
   for (const Kick& one : failing_kicks(60)) kick(one);
   drift.nth(1);
-  Heard<msg::KickerDrift> late{participant};
+  Received<msg::KickerDrift> late{participant};
   EXPECT_EQ(late.nth(1).changed_kick_id, 41);
 }
 

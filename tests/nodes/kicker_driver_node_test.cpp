@@ -74,8 +74,8 @@ class KickerDriverNodeTest : public NodeTest {
   std::int64_t t_ns = 1'000'000'000;
   std::size_t samples = 0;
   std::size_t orders = 0;
-  Heard<msg::KickerStatus> status{participant};
-  Heard<msg::KickReceipt> receipt{participant};
+  Received<msg::KickerStatus> status{participant};
+  Received<msg::KickReceipt> receipt{participant};
   Says<msg::KickOrder> order{participant, 1, "kick_decision/1"};
   Says<msg::DriveCommand> drive{participant, 1, "kick_decision/1"};
   std::optional<Says<msg::Referee>> referee{std::in_place, participant};
@@ -84,7 +84,7 @@ class KickerDriverNodeTest : public NodeTest {
 };
 
 TEST_F(KickerDriverNodeTest, SaysOnceThatItsBoardIsEmulated) {
-  Heard<msg::DeviceEmulated> emulated{participant};
+  Received<msg::DeviceEmulated> emulated{participant};
   start();
   sample();
   EXPECT_TRUE(emulated.now().empty());

@@ -98,9 +98,9 @@ class Running {
 
 /// Everything that is written on T's topic from now on.
 template <bus::Message T>
-class Heard {
+class Received {
  public:
-  explicit Heard(const bus::Participant& participant)
+  explicit Received(const bus::Participant& participant)
       : reader_(participant, {.period = {}, .keep_all = true, .on_liveliness = {}}) {}
 
   /// The first n samples, fewer if they do not come.

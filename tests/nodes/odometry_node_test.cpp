@@ -29,7 +29,7 @@ class OdometryNodeTest : public NodeTest {
 };
 
 TEST_F(OdometryNodeTest, TurnsWheelSamplesIntoOdometry) {
-  Heard<msg::Odometry> odometry{participant};
+  Received<msg::Odometry> odometry{participant};
   OdometryNode node{context, fake_wheels()};
   const Running running{Executor::kListener, stop, {&node.node()}};
   for (int i = 0; i < 3; ++i) wheels->put(sample({0.0, 1.0, 0.5}));
@@ -49,8 +49,8 @@ TEST_F(OdometryNodeTest, TurnsWheelSamplesIntoOdometry) {
 }
 
 TEST_F(OdometryNodeTest, SaysOnceWhatIsEmulated) {
-  Heard<msg::DeviceEmulated> emulated{participant};
-  Heard<msg::Odometry> odometry{participant};
+  Received<msg::DeviceEmulated> emulated{participant};
+  Received<msg::Odometry> odometry{participant};
   OdometryNode node{context, fake_wheels()};
   const Running running{Executor::kListener, stop, {&node.node()}};
   wheels->put(sample({}));
@@ -100,7 +100,7 @@ TEST_F(OdometryNodeTest, PassesDriveCommandsOnAndThoseOfItsRobotOnly) {
 }
 
 TEST_F(OdometryNodeTest, BrokenWheelSamplesAreReportedAndDoNotKillIt) {
-  Heard<msg::Odometry> odometry{participant};
+  Received<msg::Odometry> odometry{participant};
   OdometryNode node{context, fake_wheels()};
   const Running running{Executor::kListener, stop, {&node.node()}};
   wheels->put(sample({0.0, 1.0, 0.0}));
@@ -124,7 +124,7 @@ TEST_F(OdometryNodeTest, BrokenWheelSamplesAreReportedAndDoNotKillIt) {
 }
 
 TEST_F(OdometryNodeTest, ABaseThatNobodyDrivesAnyMoreStopsWhetherOrNotItsWheelsSpeak) {
-  Heard<msg::Odometry> odometry{participant};
+  Received<msg::Odometry> odometry{participant};
   Says<msg::DriveCommand> drive{participant};
   OdometryNode node{context, fake_wheels()};
   const Running running{Executor::kListener, stop, {&node.node()}};
@@ -168,9 +168,9 @@ TEST_F(OdometryNodeTest, ACommandThatWaitedIsNotDriven) {
 
 TEST_F(OdometryNodeTest, InLockstepTheNextSampleWaitsForTheDriveCommand) {
   context.settings.run.lockstep = true;
-  Heard<msg::Odometry> odometry{participant};
+  Received<msg::Odometry> odometry{participant};
   bus::Reader<msg::Odometry> recorder{participant};
-  Heard<msg::StepDone> done{participant};
+  Received<msg::StepDone> done{participant};
   Says<msg::DriveCommand> drive{participant};
   OdometryNode node{context, fake_wheels()};
   const Running running{Executor::kWaitset, stop, {&node.node()}};

@@ -68,8 +68,8 @@ class QuietPath : public NodeTest {
   }
 
   std::int64_t t_ns = 1'000'000'000;
-  Heard<msg::KickDecision> decision{participant};
-  Heard<msg::KickOrder> order{participant};
+  Received<msg::KickDecision> decision{participant};
+  Received<msg::KickOrder> order{participant};
   Says<msg::WorldState> world_says{participant};
   Says<msg::KickerStatus> kicker_says{participant};
   std::optional<KickDecisionNode> node;

@@ -188,7 +188,7 @@ TEST_F(RecorderNodeTest, NaNWhereANumberMustBeIsCountedAndNotFatal) {
 
 TEST_F(RecorderNodeTest, InLockstepACycleIsOverWhenEveryStateStreamOfItIsRecorded) {
   context.settings.run.lockstep = true;
-  Heard<msg::StepDone> done{participant};
+  Received<msg::StepDone> done{participant};
   start();
   const auto state = [&]<class T>(const T& sample) { say<T>(participant, {sample}); };
   state(numbered<msg::DriveCommand>(1));

@@ -11,9 +11,9 @@
 namespace trivela::nodes {
 namespace {
 
+using hal::refbox::BoxCommand;
 using hal::refbox::BoxFault;
 using hal::refbox::CommandKind;
-using hal::refbox::Said;
 using testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
@@ -30,7 +30,7 @@ class RefboxNodeTest : public NodeTest {
     running.emplace(bus::Executor::kListener, stop, std::vector{&node->node()});
     ASSERT_TRUE(box.wait_for_teams(1, kPlenty));
   }
-  void say(CommandKind kind, std::optional<std::size_t> team = {}) { box.act(Said{.kind = kind, .team = team}); }
+  void say(CommandKind kind, std::optional<std::size_t> team = {}) { box.act(BoxCommand{.kind = kind, .team = team}); }
 
   /// The first sample of `referee` from now on that is so, of this robot.
   template <class Is>
@@ -59,7 +59,7 @@ class RefboxNodeTest : public NodeTest {
   }
 
   hal::refbox::EmulatedBox box{hal::refbox::BoxConfig{}};
-  Heard<msg::Referee> referee{participant};
+  Received<msg::Referee> referee{participant};
   Says<msg::WorldState> model_says{participant};
   std::optional<RefboxNode> node;
   std::optional<Running> running;
@@ -86,7 +86,7 @@ TEST_F(RefboxNodeTest, SaysTheMatchAsTheBoxSaysIt) {
 }
 
 TEST_F(RefboxNodeTest, SaysOnceThatTheBoxIsAProgram) {
-  Heard<msg::DeviceEmulated> emulated{participant};
+  Received<msg::DeviceEmulated> emulated{participant};
   start();
   EXPECT_EQ(emulated.nth(1).part, msg::PART_REFEREE_BOX);
   EXPECT_EQ(emulated.nth(1).robot_id, 1);

@@ -57,7 +57,7 @@ class ScanRecorderNodeTest : public NodeTest {
   tests::Folder folder;
   Says<msg::SimScan> scans{participant};
   Says<msg::KickReceipt> receipts{participant};
-  Heard<msg::StepDone> done{participant};
+  Received<msg::StepDone> done{participant};
   std::size_t said_scans = 0;
   std::optional<ScanRecorderNode> node;
   std::optional<Running> running;
@@ -96,7 +96,7 @@ TEST_F(ScanRecorderNodeTest, SaysThatTheScannerIsAProgramAndTheRecordDoesToo) {
                                       return kicking::lob::Scan{t_ns, std::vector<std::uint32_t>(1081, 2000)};
                                     }};
   context.settings.scan_recorder.device = config::ScipDevice{.address = scanner.address(), .host = {}};
-  Heard<msg::DeviceEmulated> emulated{participant};
+  Received<msg::DeviceEmulated> emulated{participant};
   node.emplace(context, hal::open_range_finder(scanner.address()));
   running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
   EXPECT_EQ(emulated.nth(1).part, msg::PART_RANGE_FINDER);

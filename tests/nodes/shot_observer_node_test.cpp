@@ -53,7 +53,7 @@ class ShotObserverNodeTest : public NodeTest {
   }
 
   const robot::FlownShot in_goal = robot::fly(robot::aimed(0.3, 0.5), robot::airless());
-  Heard<msg::KickOutcome> outcome{participant};
+  Received<msg::KickOutcome> outcome{participant};
   Says<msg::FlightFrame> camera{participant};
   Says<msg::KickReceipt> receipt{participant};
   Says<msg::Referee> referee{participant};
@@ -98,7 +98,7 @@ class LearningObserverTest : public ShotObserverNodeTest {
     out.y_m = 4.0 - context.robot.model.ball_offset_m;
     decision(out);
   }
-  Heard<msg::KickerEstimate> estimate{participant};
+  Received<msg::KickerEstimate> estimate{participant};
   Says<msg::KickDecision> decision{participant};
   tests::Folder folder;
 };

@@ -22,7 +22,7 @@ TEST_F(SignsOfLife, ANodeIsReadyOnceItsReadersAreThereAndSpeaksOnlyWhileItsLoops
     if (hang) go.wait();
   });
   EXPECT_EQ(manager.drain(), 0u) << "nothing runs yet";
-  std::thread running{[&] { bus::Executor{bus::Executor::kListener, stop, {&node}, context.pulse()}.run(); }};
+  std::thread running{[&] { bus::Executor{bus::Executor::kListener, stop, {&node}, context.watchdog_hook()}.run(); }};
   EXPECT_EQ(manager.next(kPlenty), "READY=1");
   for (int i = 0; i < 3; ++i) EXPECT_EQ(manager.next(kPlenty), "WATCHDOG=1");
 
@@ -38,7 +38,7 @@ TEST_F(SignsOfLife, ANodeIsReadyOnceItsReadersAreThereAndSpeaksOnlyWhileItsLoops
 
 TEST_F(SignsOfLife, WithoutAManagerAnExecutorIsToldOfNobody) {
   context.supervisor.reset();
-  EXPECT_FALSE(context.pulse().beat);
+  EXPECT_FALSE(context.watchdog_hook().notify);
   context.alive();
 }
 

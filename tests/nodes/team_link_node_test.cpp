@@ -77,15 +77,15 @@ TEST_F(TeamLinkTest, TheBasesRefereeComesToTheRobotByItsNumberAndNothingElseDoes
   Says<msg::Referee> box_for_one{base.participant, 1}, box_for_two{base.participant, 2};
   Says<msg::WorldState> world{robot.participant, 3};
   Says<msg::KickOrder> order{robot.participant, 3};
-  Heard<msg::Referee> at_robot{robot.participant};
-  Heard<msg::WorldState> world_at_base{base.participant};
-  Heard<msg::KickOrder> orders_at_base{base.participant};
-  Heard<msg::TeamHeard> at_base{base.participant};
+  Received<msg::Referee> at_robot{robot.participant};
+  Received<msg::WorldState> world_at_base{base.participant};
+  Received<msg::KickOrder> orders_at_base{base.participant};
+  Received<msg::TeamHeard> at_base{base.participant};
   base.start();
   robot.start();
   const auto placed = [&] {
-    for (const auto& heard : at_base.now())
-      if (heard.summary.placed && heard.clock_known) return true;
+    for (const auto& received : at_base.now())
+      if (received.summary.placed && received.clock_known) return true;
     return false;
   };
   msg::WorldState pose{};
@@ -97,10 +97,10 @@ TEST_F(TeamLinkTest, TheBasesRefereeComesToTheRobotByItsNumberAndNothingElseDoes
                       world(pose);
                       order({});
                     }));
-  for (const msg::Referee& heard : at_robot.now()) {
-    EXPECT_EQ(heard.robot_id, 3);
-    EXPECT_TRUE(heard.playing) << "the word of robot 1 alone goes out";
-    EXPECT_LE(heard.t_ns, now_ns(std::chrono::steady_clock::now()));
+  for (const msg::Referee& received : at_robot.now()) {
+    EXPECT_EQ(received.robot_id, 3);
+    EXPECT_TRUE(received.playing) << "the word of robot 1 alone goes out";
+    EXPECT_LE(received.t_ns, now_ns(std::chrono::steady_clock::now()));
   }
   const msg::TeamHeard last = at_base.now().back();
   EXPECT_EQ(last.robot_id, 0);
@@ -114,12 +114,12 @@ TEST_F(TeamLinkTest, TheBasesRefereeComesToTheRobotByItsNumberAndNothingElseDoes
 TEST_F(TeamLinkTest, ARobotWithARefereeOfItsOwnIsGivenNoOther) {
   Machine base{base_bus, team_of_base, true, 1}, robot{robot_bus, team_of_robot, false, 1, false};
   Says<msg::Referee> box{base.participant, 1};
-  Heard<msg::Referee> at_robot{robot.participant};
-  Heard<msg::TeamHeard> heard{robot.participant};
+  Received<msg::Referee> at_robot{robot.participant};
+  Received<msg::TeamHeard> received{robot.participant};
   base.start();
   robot.start();
   const auto met = [&] {
-    for (const auto& h : heard.now())
+    for (const auto& h : received.now())
       if (h.clock_known && h.summary.playing) return true;
     return false;
   };

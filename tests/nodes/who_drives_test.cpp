@@ -60,7 +60,7 @@ class WhoDrivesTest : public NodeTest {
     return odometry.nth(++samples).obeyed;
   }
 
-  Heard<msg::Odometry> odometry{participant};
+  Received<msg::Odometry> odometry{participant};
   Says<msg::DriveCommand> drive{participant};
   Says<msg::TeamDrive> team{participant};
   Says<msg::WorldState> world{participant};
@@ -139,7 +139,7 @@ TEST_F(WhoDrivesTest, InLockstepTheBeliefOfTheCycleDecides) {
   context.settings.run.lockstep = true;
   context.settings.kick_decision.drive = config::DriveMode::kWithBall;
   bus::Reader<msg::Odometry> recorder{participant};
-  Heard<msg::StepDone> done{participant};
+  Received<msg::StepDone> done{participant};
   node.emplace(context, fake_wheels());
   running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
   drive.expect_reader();

@@ -117,9 +117,9 @@ TEST_F(WholeGraphTest, HasNoCycle) {
 }
 
 TEST_F(WholeGraphTest, AWheelSampleBecomesAKickInTheSensorsThread) {
-  Heard<msg::KickReceipt> receipt{participant};
-  Heard<msg::KickDecision> decision{participant};
-  Heard<msg::KickerStatus> status{participant};
+  Received<msg::KickReceipt> receipt{participant};
+  Received<msg::KickDecision> decision{participant};
+  Received<msg::KickerStatus> status{participant};
   Says<msg::VisionFrame> camera{participant};
   Says<msg::Referee> referee{participant};
   const Running running{bus::Executor::kListener, stop, chain()};

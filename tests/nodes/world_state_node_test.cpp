@@ -38,17 +38,17 @@ class WorldStateNodeTest : public NodeTest {
     return out;
   }
 
-  Heard<msg::WorldState> world{participant};
+  Received<msg::WorldState> world{participant};
   Says<msg::Odometry> wheels_say{participant};
   Says<msg::VisionFrame> camera_says{participant};
-  Says<msg::Referee> referee_says{participant};
+  Says<msg::Referee> referee_permission{participant};
 };
 
 TEST_F(WorldStateNodeTest, AForgedFutureInRealTimeSilencesNoPictureThatFollows) {
   const bus::Participant own_participant{bus::fresh_domain(), bus::RealTime{}};
   bus::Stop own_stop;
   NodeContext own{context.settings, context.robot, own_participant, context.logger, own_stop};
-  Heard<msg::WorldState> heard{own_participant};
+  Received<msg::WorldState> received{own_participant};
   Says<msg::Odometry> wheels_tell{own_participant};
   Says<msg::VisionFrame> camera_tells{own_participant};
   WorldStateNode node{own};
@@ -59,14 +59,14 @@ TEST_F(WorldStateNodeTest, AForgedFutureInRealTimeSilencesNoPictureThatFollows) 
   forged.x_m = 100.0;
   camera_tells(forged);
   wheels_tell(odometry(1));
-  EXPECT_NE(heard.nth(1).x_m, 100.0);
+  EXPECT_NE(received.nth(1).x_m, 100.0);
   auto far_odometry = odometry(1);
   far_odometry.t_ns = std::numeric_limits<std::int64_t>::max() / 2;
   wheels_tell(far_odometry);  // no answer
   camera_tells(vision(2));
   wheels_tell(odometry(2));
-  EXPECT_EQ(heard.nth(2).t_ns, 2 * kCycle_ns);
-  EXPECT_NEAR(heard.nth(2).x_m, 1.0, 1e-9);
+  EXPECT_EQ(received.nth(2).t_ns, 2 * kCycle_ns);
+  EXPECT_NEAR(received.nth(2).x_m, 1.0, 1e-9);
 }
 
 TEST_F(WorldStateNodeTest, JoinsOdometryVisionAndReferee) {
@@ -75,7 +75,7 @@ TEST_F(WorldStateNodeTest, JoinsOdometryVisionAndReferee) {
     const bus::Participant own_participant{bus::fresh_domain()};
     NodeContext own{context.settings, context.robot, own_participant, context.logger, own_stop};
     own.steady_ns = context.steady_ns;
-    Heard<msg::WorldState> heard{own_participant};
+    Received<msg::WorldState> received{own_participant};
     Says<msg::Odometry> wheels_tell{own_participant};
     Says<msg::VisionFrame> camera_tells{own_participant};
     Says<msg::Referee> referee_tells{own_participant};
@@ -86,9 +86,9 @@ TEST_F(WorldStateNodeTest, JoinsOdometryVisionAndReferee) {
     for (std::int64_t cycle = 1; cycle <= 5; ++cycle) {
       camera_tells(vision(cycle));
       wheels_tell(odometry(cycle));
-      heard.first(static_cast<std::size_t>(cycle));
+      received.first(static_cast<std::size_t>(cycle));
     }
-    const auto last = heard.nth(5);
+    const auto last = received.nth(5);
     EXPECT_EQ(last.robot_id, 1);
     EXPECT_EQ(last.seq, 5u);
     EXPECT_EQ(last.t_ns, 5 * kCycle_ns);
@@ -106,7 +106,7 @@ TEST_F(WorldStateNodeTest, WarnsOnceOfARobotThatPlaysBeyondTheFieldOfItsSettings
   WorldStateNode node{context};
   const Running running{Executor::kListener, stop, {&node.node()}};
   wheels_say.expect_reader();
-  referee_says(referee());
+  referee_permission(referee());
   for (std::int64_t second = 1; second <= 6; ++second) {
     auto frame = vision(50 * second);
     frame.y_m = -10.5;  // of the 18 x 12 m field
@@ -128,7 +128,7 @@ TEST_F(WorldStateNodeTest, WarnsOnceOfAGoalThatIsGivenForABallBesideTheGoalOfIts
     msg::Referee word = referee();
     word.goals_own = goals;
     word.playing = goals == 0;
-    referee_says(word);
+    referee_permission(word);
     auto frame = vision(++cycle);
     frame.x_m = 3.0;  // of a goal 2 m wide at y = 9 m
     frame.y_m = 8.5;
@@ -151,7 +151,7 @@ TEST_F(WorldStateNodeTest, WarnsOnceOfPlayThatNeverComesNearTheLinesOfItsSetting
   WorldStateNode node{context};
   const Running running{Executor::kListener, stop, {&node.node()}};
   wheels_say.expect_reader();
-  referee_says(referee());
+  referee_permission(referee());
   constexpr std::int64_t kCyclesAMinute = 3000;
   for (std::int64_t minute = 0; minute <= 12; ++minute) {
     camera_says(vision(1 + kCyclesAMinute * minute));
@@ -176,7 +176,7 @@ TEST_F(WorldStateNodeTest, NobodyPlaysByTheWordOfARefereeWhoIsSilentOrGone) {
   WorldStateNode node{context};
   const Running running{Executor::kListener, stop, {&node.node()}};
   wheels_say.expect_reader();
-  referee_says(referee());
+  referee_permission(referee());
   std::size_t cycle = 0;
   const auto playing_at = [&](std::int64_t now_ns) {
     clock_ns = now_ns;
@@ -189,11 +189,11 @@ TEST_F(WorldStateNodeTest, NobodyPlaysByTheWordOfARefereeWhoIsSilentOrGone) {
   EXPECT_TRUE(log_lines->wait_for("the referee is silent, its last command is of 1.00 s ago"));
   auto word = referee();
   word.t_ns = 5'000'000'000;
-  referee_says(word);
+  referee_permission(word);
   EXPECT_TRUE(playing_at(5'000'000'000));
   EXPECT_TRUE(log_lines->wait_for("the referee is received again"));
   word.playing = false;
-  referee_says(word);
+  referee_permission(word);
   EXPECT_FALSE(playing_at(5'000'000'000));
 }
 
@@ -201,7 +201,7 @@ TEST_F(WorldStateNodeTest, ABallIsHeldNoLongerThanTheCameraSpeaks) {
   WorldStateNode node{context};
   const Running running{Executor::kListener, stop, {&node.node()}};
   wheels_say.expect_reader();
-  referee_says(referee());
+  referee_permission(referee());
   for (std::int64_t cycle = 1; cycle <= 5; ++cycle) {
     camera_says(vision(cycle));
     wheels_say(odometry(cycle));
@@ -225,7 +225,7 @@ TEST_F(WorldStateNodeTest, AnotherRobotsSensorsAreNotItsOwn) {
   const Running running{Executor::kListener, stop, {&node.node()}};
   wheels_say.expect_reader();
   other_wheels.expect_reader();
-  referee_says(referee());
+  referee_permission(referee());
   other_camera(vision(1));
   other_wheels(odometry(1));
   wheels_say(odometry(2));
@@ -237,7 +237,7 @@ TEST_F(WorldStateNodeTest, OdometryThatIsNotFiniteStopsThePlayForThatCycleOnly) 
   WorldStateNode node{context};
   const Running running{Executor::kListener, stop, {&node.node()}};
   wheels_say.expect_reader();
-  referee_says(referee());
+  referee_permission(referee());
   camera_says(vision(1));
   wheels_say(odometry(1));
   EXPECT_TRUE(world.nth(1).playing);

@@ -26,8 +26,8 @@ class LabelPage : public evaluator::LogTest {
       match.truth(match.kick(1, "unknown"), "bar");
       match.close();
     }
-    desk_.emplace(path());
-    server_.emplace(*desk_, 0);
+    controller_.emplace(path());
+    server_.emplace(*controller_, 0);
     host_ = "127.0.0.1:" + std::to_string(server_->port());
   }
 
@@ -54,7 +54,7 @@ class LabelPage : public evaluator::LogTest {
 
   std::int64_t labels() const { return rows_of(log::Reader(path()), "labels"); }
 
-  std::optional<LabelStore> desk_;
+  std::optional<LabelStore> controller_;
   std::optional<LabelServer> server_;
   std::string host_;
 };
@@ -87,7 +87,7 @@ TEST_F(LabelPage, RefusesWhoHasNotTheTokenOrComesFromElsewhere) {
 
 TEST_F(LabelPage, RefusesAnotherHostsName) {
   for (const std::string host : {"evil.example", "127.0.0.1.evil.example:80", "127.0.0.1", "localhost:1"}) {
-    for (const char* const path : {"/", "/api/kicks", "/api/story?i=0"})
+    for (const char* const path : {"/", "/api/kicks", "/api/timeline?i=0"})
       EXPECT_EQ(httplib::Client("http://" + host_).Get(path, httplib::Headers{{"Host", host}})->status, 403) << host;
   }
   const auto by_name = httplib::Client("http://" + host_)
@@ -111,11 +111,11 @@ TEST_F(LabelPage, RefusesLabelsThatMakeNoSense) {
 }
 
 TEST_F(LabelPage, TellsTheStoryWithoutTheSimulatorsTruth) {
-  const auto story = httplib::Client("http://" + host_).Get("/api/story?i=1");
-  EXPECT_EQ(story->status, 200);
-  EXPECT_EQ(json::parse(story->body)["kick"], "1:2");
-  EXPECT_FALSE(json::parse(story->body).contains("truth"));
-  for (const char* const wrong : {"/api/story", "/api/story?i=-1", "/api/story?i=two", "/api/story?i=2"})
+  const auto timeline = httplib::Client("http://" + host_).Get("/api/timeline?i=1");
+  EXPECT_EQ(timeline->status, 200);
+  EXPECT_EQ(json::parse(timeline->body)["kick"], "1:2");
+  EXPECT_FALSE(json::parse(timeline->body).contains("truth"));
+  for (const char* const wrong : {"/api/timeline", "/api/timeline?i=-1", "/api/timeline?i=two", "/api/timeline?i=2"})
     EXPECT_GE(httplib::Client("http://" + host_).Get(wrong)->status, 400) << wrong;
 }
 
@@ -181,7 +181,9 @@ TEST_F(LabelPage, EndsWhileConnectionsTrickle) {
   writer.join();
 }
 
-TEST_F(LabelPage, OfATakenPortIsRefused) { EXPECT_THROW(LabelServer(*desk_, server_->port()), std::runtime_error); }
+TEST_F(LabelPage, OfATakenPortIsRefused) {
+  EXPECT_THROW(LabelServer(*controller_, server_->port()), std::runtime_error);
+}
 
 }  // namespace
 }  // namespace trivela::pages

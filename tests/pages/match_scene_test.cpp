@@ -37,9 +37,9 @@ class Scene : public testing::Test {
   void cycle() {
     ++seq;
     now += 20 * kMs;
-    if (speaks.world) scene.hear(world(1, ++numbers.world, playing, possession), 1, now);
-    if (speaks.referee) scene.hear(referee(1, ++numbers.referee, playing), 2, now);
-    if (speaks.kicker) scene.hear(kicker(1, ++numbers.kicker, armed), 3, now);
+    if (speaks.world) scene.receive(world(1, ++numbers.world, playing, possession), 1, now);
+    if (speaks.referee) scene.receive(referee(1, ++numbers.referee, playing), 2, now);
+    if (speaks.kicker) scene.receive(kicker(1, ++numbers.kicker, armed), 3, now);
     if (seq % 5 == 0) scene.look(now);
   }
   void play(std::int64_t ms) {
@@ -123,7 +123,7 @@ TEST_F(Scene, ShowsWhatKicksHaveShownOfAKickerOnceThereIsOne) {
   msg::KickerEstimate estimate{};
   estimate.robot_id = 1;
   estimate.seq = 1;
-  scene.hear(estimate, 4, now);
+  scene.receive(estimate, 4, now);
   play(100);
   EXPECT_TRUE(robot()["learned"].is_null()) << "before the first kick";
   estimate.seq = 2;
@@ -131,7 +131,7 @@ TEST_F(Scene, ShowsWhatKicksHaveShownOfAKickerOnceThereIsOne) {
   estimate.used = true;
   estimate.speed_ln = std::log(1.1);
   estimate.speed_ln_se = 0.02;
-  scene.hear(estimate, 4, now);
+  scene.receive(estimate, 4, now);
   play(60'000);
   const json learned = robot()["learned"];
   EXPECT_EQ(learned["kicks"], 1) << "it holds until there is another one";
@@ -145,7 +145,7 @@ TEST_F(Scene, AFaultOfTheKickerIsAnAlarm) {
   msg::KickerStatus faulty = kicker(1, ++numbers.kicker);
   faulty.state = msg::STATE_FAULT;
   faulty.fault = msg::FAULT_CHARGER;
-  scene.hear(faulty, 3, now);
+  scene.receive(faulty, 3, now);
   scene.look(now);
   EXPECT_THAT(alarms(), ElementsAre("robot 1: kicker: fault of the charger"));
   play(200);
@@ -167,7 +167,7 @@ msg::KickerDrift drift(double factor, msg::DriftKind kind = msg::DRIFT_EXIT_SPEE
 }
 
 TEST_F(Scene, AKickerThatChangedIsAnAlarmThatSaysByHowMuchAndWhatToDo) {
-  scene.hear(drift(0.95), 4, now);
+  scene.receive(drift(0.95), 4, now);
   play(20'000);
   EXPECT_THAT(
       alarms(),
@@ -177,14 +177,14 @@ TEST_F(Scene, AKickerThatChangedIsAnAlarmThatSaysByHowMuchAndWhatToDo) {
   msg::KickerDrift taken_back{};
   taken_back.robot_id = 1;
   taken_back.seq = 2;
-  scene.hear(taken_back, 4, now);
+  scene.receive(taken_back, 4, now);
   play(200);
   EXPECT_THAT(alarms(), IsEmpty());
   EXPECT_EQ(match()["mended"].size(), 1u);
 }
 
 TEST_F(Scene, AnAngleThatChangedIsSaidInMetres) {
-  scene.hear(drift(0.95, msg::DRIFT_ELEVATION), 4, now);
+  scene.receive(drift(0.95, msg::DRIFT_ELEVATION), 4, now);
   play(200);
   EXPECT_THAT(alarms(),
               ElementsAre(AllOf(HasSubstr("balls cross 0.42 m lower"), HasSubstr("measure exit_angle_deg again"))));
@@ -192,7 +192,7 @@ TEST_F(Scene, AnAngleThatChangedIsSaidInMetres) {
 
 TEST_F(Scene, AChangeWithoutASizeIsAnAlarmAllTheSame) {
   for (const double factor : {std::numeric_limits<double>::quiet_NaN(), 0.0, -1.0, 1.0}) {
-    scene.hear(drift(factor), 4, now);
+    scene.receive(drift(factor), 4, now);
     play(200);
     EXPECT_THAT(alarms(), ElementsAre("robot 1: its kicker changed at kick 61: by how much is not said")) << factor;
   }
@@ -218,7 +218,7 @@ TEST_F(Scene, ADeviceThatSaysItsSwitchIsOpenIsBelievedAtOnce) {
   msg::DeviceKicker device{};
   device.robot_id = 1;
   device.seq = 1;
-  scene.hear(device, 4, now);
+  scene.receive(device, 4, now);
   scene.look(now);
   EXPECT_THAT(alarms(), ElementsAre("robot 1: the arm switch is open"));
 }
@@ -240,8 +240,8 @@ TEST_F(Scene, MissedMessagesAreAnAlarmForTenSecondsAndCounted) {
 TEST_F(Scene, UnknownOutcomesAreAnAlarmUntilKnownOnesOutweighThem) {
   play(100);
   const auto kick = [this](std::int64_t id, msg::Outcome what) {
-    scene.hear(decision(1, id, msg::POLICY_MOVING, static_cast<std::uint64_t>(id)), 5, now);
-    scene.hear(outcome(1, id, what, static_cast<std::uint64_t>(id)), 6, now);
+    scene.receive(decision(1, id, msg::POLICY_MOVING, static_cast<std::uint64_t>(id)), 5, now);
+    scene.receive(outcome(1, id, what, static_cast<std::uint64_t>(id)), 6, now);
     scene.look(now);
   };
   kick(1, msg::OUTCOME_UNKNOWN);
@@ -260,16 +260,16 @@ TEST_F(Scene, SaysWhyARobotHoldsOrFires) {
   possession = true;
   play(100);
   EXPECT_EQ(robot()["why"], "it has the ball, and no decision is received");
-  scene.hear(decision(1, 0, msg::POLICY_MOVING, 1), 5, now);
+  scene.receive(decision(1, 0, msg::POLICY_MOVING, 1), 5, now);
   EXPECT_EQ(robot()["fires"], false);
   EXPECT_EQ(robot()["why"], "the two segments do not meet");
   EXPECT_EQ(robot()["policy"], "moving");
-  scene.hear(decision(1, 9, msg::POLICY_MOVING, 2), 5, now);
-  scene.hear(decision(1, 0, msg::POLICY_MOVING, 3), 5, now + 20 * kMs);
+  scene.receive(decision(1, 9, msg::POLICY_MOVING, 2), 5, now);
+  scene.receive(decision(1, 0, msg::POLICY_MOVING, 3), 5, now + 20 * kMs);
   EXPECT_EQ(robot()["fires"], true) << "long enough for an eye";
   msg::KickDecision next = decision(1, 0, msg::POLICY_MOVING, 4);
   next.possession_id = 1;
-  scene.hear(next, 5, now + 40 * kMs);
+  scene.receive(next, 5, now + 40 * kMs);
   EXPECT_EQ(robot()["fires"], false) << "it has the ball again";
   playing = possession = false;
   play(1200);
@@ -292,7 +292,7 @@ TEST_F(Scene, DrawsBothSegmentsWhereTheDecisionHasThem) {
   aimed.offset_right_m = 0.0;
   aimed.left_m = 0.8;
   aimed.right_m = 1.2;
-  scene.hear(aimed, 5, now);
+  scene.receive(aimed, 5, now);
   const json segments = robot()["segments"];
   EXPECT_EQ(segments["s1"], json::parse("[[0.0,4.0],[0.0,9.0]]"));
   EXPECT_EQ(segments["s2"], json::parse("[[-0.8,9.0],[1.2,9.0]]"));
@@ -305,10 +305,10 @@ TEST_F(Scene, WhatIsNoNumberIsNull) {
   lost.x_m = std::numeric_limits<double>::quiet_NaN();
   lost.heading_rad = std::numeric_limits<double>::infinity();
   lost.ball_x_m = 1e300;
-  scene.hear(lost, 1, now);
+  scene.receive(lost, 1, now);
   msg::KickDecision empty = decision(1, 0, static_cast<msg::Policy>(200));
   empty.target_x_m = empty.distance_m = empty.power = msg::kNone;
-  scene.hear(empty, 5, now);
+  scene.receive(empty, 5, now);
   EXPECT_EQ(robot()["x"], nullptr);
   EXPECT_EQ(robot()["heading"], nullptr);
   EXPECT_EQ(robot()["policy"], "invalid");
@@ -321,7 +321,7 @@ TEST_F(Scene, IsSimulatedOnceAnybodySaysSoAndStaysIt) {
   msg::DeviceEmulated word{};
   word.robot_id = 1;
   word.part = msg::PART_KICKER;
-  scene.hear(word, 7, now);
+  scene.receive(word, 7, now);
   scene.note_members({"simulator"}, {"a simulator"});
   scene.note_members({}, {});
   EXPECT_THAT(match()["simulated"].get<std::vector<std::string>>(), ElementsAre("a simulator", "an emulated kicker"));
@@ -334,7 +334,7 @@ TEST_F(Scene, ListensToNoTruth) {
 }
 
 TEST_F(Scene, ShowsNoMoreRobotsThanItHasPlacesForAndNoRobotZero) {
-  for (int id = 0; id <= 200; ++id) scene.hear(world(static_cast<std::uint8_t>(id), 1), 1, now);
+  for (int id = 0; id <= 200; ++id) scene.receive(world(static_cast<std::uint8_t>(id), 1), 1, now);
   scene.look(now);
   EXPECT_EQ(pitch()["robots"].size(), MatchScene::kMostRobots);
   EXPECT_EQ(pitch()["robots"][0]["id"], 1);

@@ -52,13 +52,13 @@ class WatchedMatch {
     const std::int64_t id = ++kicks_;
     const msg::Policy policy = random_.happens(0.5) ? msg::POLICY_MOVING : msg::POLICY_STOPPED;
     const bool inside = random_.happens(p_.at(policy));
-    ledger_.hear(decision(1, id, policy, static_cast<std::uint64_t>(id)), id);
-    ledger_.hear(receipt(1, id, true, static_cast<std::uint64_t>(id)), id);
+    ledger_.receive(decision(1, id, policy, static_cast<std::uint64_t>(id)), id);
+    ledger_.receive(receipt(1, id, true, static_cast<std::uint64_t>(id)), id);
     if (random_.happens(0.05)) return;  // whatever became of it
-    ledger_.hear(
+    ledger_.receive(
         outcome(1, id, inside ? msg::OUTCOME_ON_TARGET : msg::OUTCOME_WIDE_LEFT, static_cast<std::uint64_t>(id)), id);
   }
-  std::map<std::optional<PolicyLabel>, KickTally> tallies() const { return ledger_.tallies({.heard_ns = kicks_}); }
+  std::map<std::optional<PolicyLabel>, KickTally> tallies() const { return ledger_.tallies({.received_ns = kicks_}); }
 
  private:
   RandomNumbers random_;

@@ -18,9 +18,9 @@ constexpr std::int64_t kS = 1'000'000'000;
 TEST(ClockExchange, TheHandCase) {
   // The other is 50 ms ahead; his message takes 3 ms, ours 5 ms.
   ClockExchange clocks;
-  clocks.heard({.sent_t_ns = 1050 * kMs, .heard_t_ns = 1003 * kMs});
+  clocks.received({.sent_t_ns = 1050 * kMs, .received_t_ns = 1003 * kMs});
   EXPECT_FALSE(clocks.estimate(1003 * kMs)) << "one direction says nothing";
-  clocks.told({.sent_t_ns = 1000 * kMs, .heard_t_ns = 1055 * kMs});
+  clocks.told({.sent_t_ns = 1000 * kMs, .received_t_ns = 1055 * kMs});
   const auto estimate = clocks.estimate(1003 * kMs);
   ASSERT_TRUE(estimate);
   EXPECT_EQ(estimate->offset_ns, 51 * kMs) << "wrong by half the difference of the two ways";
@@ -29,10 +29,10 @@ TEST(ClockExchange, TheHandCase) {
 
 TEST(ClockExchange, TheQuickestOfEachDirectionCounts) {
   ClockExchange clocks;
-  clocks.heard({.sent_t_ns = 0, .heard_t_ns = 9 * kMs});
-  clocks.heard({.sent_t_ns = 100 * kMs, .heard_t_ns = 101 * kMs});
-  clocks.told({.sent_t_ns = 0, .heard_t_ns = kMs});
-  clocks.told({.sent_t_ns = 100 * kMs, .heard_t_ns = 115 * kMs});
+  clocks.received({.sent_t_ns = 0, .received_t_ns = 9 * kMs});
+  clocks.received({.sent_t_ns = 100 * kMs, .received_t_ns = 101 * kMs});
+  clocks.told({.sent_t_ns = 0, .received_t_ns = kMs});
+  clocks.told({.sent_t_ns = 100 * kMs, .received_t_ns = 115 * kMs});
   const auto estimate = clocks.estimate(120 * kMs);
   ASSERT_TRUE(estimate);
   EXPECT_EQ(estimate->offset_ns, 0);
@@ -42,21 +42,21 @@ TEST(ClockExchange, TheQuickestOfEachDirectionCounts) {
 
 TEST(ClockExchange, AClockThatWasSetIsForgotten) {
   ClockExchange clocks;
-  clocks.heard({.sent_t_ns = 1000 * kMs, .heard_t_ns = 1001 * kMs});
-  clocks.told({.sent_t_ns = 1000 * kMs, .heard_t_ns = 1001 * kMs});
+  clocks.received({.sent_t_ns = 1000 * kMs, .received_t_ns = 1001 * kMs});
+  clocks.told({.sent_t_ns = 1000 * kMs, .received_t_ns = 1001 * kMs});
   ASSERT_TRUE(clocks.estimate(1002 * kMs));
-  clocks.heard({.sent_t_ns = 3000 * kMs, .heard_t_ns = 1101 * kMs});  // two seconds ahead all at once
+  clocks.received({.sent_t_ns = 3000 * kMs, .received_t_ns = 1101 * kMs});  // two seconds ahead all at once
   EXPECT_FALSE(clocks.estimate(1102 * kMs));
-  clocks.heard({.sent_t_ns = 3100 * kMs, .heard_t_ns = 1201 * kMs});
-  clocks.told({.sent_t_ns = 1200 * kMs, .heard_t_ns = 3100 * kMs});
+  clocks.received({.sent_t_ns = 3100 * kMs, .received_t_ns = 1201 * kMs});
+  clocks.told({.sent_t_ns = 1200 * kMs, .received_t_ns = 3100 * kMs});
   ASSERT_TRUE(clocks.estimate(1202 * kMs));
   EXPECT_EQ(clocks.estimate(1202 * kMs)->offset_ns, 1899 * kMs + kMs / 2);
 }
 
 TEST(ClockExchange, WhatIsOlderThanTheWindowCountsNoMore) {
   ClockExchange clocks;
-  clocks.heard({.sent_t_ns = 0, .heard_t_ns = kMs});
-  clocks.told({.sent_t_ns = 0, .heard_t_ns = kMs});
+  clocks.received({.sent_t_ns = 0, .received_t_ns = kMs});
+  clocks.told({.sent_t_ns = 0, .received_t_ns = kMs});
   EXPECT_TRUE(clocks.estimate(ClockExchange::kWindow_ns));
   EXPECT_FALSE(clocks.estimate(ClockExchange::kWindow_ns + 2 * kMs));
 }
@@ -66,8 +66,8 @@ TEST(ClockExchange, WhatIsNoInstantIsPassedOver) {
   constexpr auto kLeast = std::numeric_limits<std::int64_t>::min();
   constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
   for (const std::int64_t t_ns : {kLeast, std::int64_t{-1}, kMost}) {
-    clocks.heard({.sent_t_ns = t_ns, .heard_t_ns = kMs});
-    clocks.told({.sent_t_ns = kMs, .heard_t_ns = t_ns});
+    clocks.received({.sent_t_ns = t_ns, .received_t_ns = kMs});
+    clocks.told({.sent_t_ns = kMs, .received_t_ns = t_ns});
   }
   EXPECT_FALSE(clocks.quickest(kMs));
   EXPECT_FALSE(clocks.estimate(kMs));
@@ -100,7 +100,7 @@ std::int64_t worst_offset(std::vector<Participant>& participants, double loss, s
     std::erase_if(air, [&](const Flying& message) {
       if (message.arrives_ns > t) return false;
       Participant& to = participants[message.to];
-      to.peers.heard(message.state, to.reads(message.arrives_ns));
+      to.peers.received(message.state, to.reads(message.arrives_ns));
       return true;
     });
     for (std::size_t i = 0; i < participants.size(); ++i) {

@@ -27,9 +27,9 @@ TEST(CycleWatch, ACycleIsReportedOnce) {
 
 TEST(CycleWatch, AStreamThatHasSaidNothingHoldsTheFirstCycle) {
   CycleWatch watch;
-  const std::size_t heard = watch.add(), silent = watch.add();
-  EXPECT_EQ(watch.see(heard, 0), std::nullopt);
-  EXPECT_EQ(watch.see(heard, 20), std::nullopt);
+  const std::size_t received = watch.add(), silent = watch.add();
+  EXPECT_EQ(watch.see(received, 0), std::nullopt);
+  EXPECT_EQ(watch.see(received, 20), std::nullopt);
   EXPECT_EQ(watch.see(silent, 0), 0);
 }
 

@@ -24,8 +24,8 @@ config::Odometry timeouts(double own_s, double team_s) {
 /// Kick_decision says 1 m/s, the team 2 m/s.
 DriveArbiter told_by_both(DriveMode mode) {
   DriveArbiter arbiter{mode, timeouts(0.2, 0.2)};
-  EXPECT_TRUE(arbiter.hear(msg::DRIVE_KICK_DECISION, kNow_ns, {0.0, 1.0, 0.0}, kNow_ns));
-  EXPECT_TRUE(arbiter.hear(msg::DRIVE_TEAM, kNow_ns, {0.0, 2.0, 0.0}, kNow_ns));
+  EXPECT_TRUE(arbiter.receive(msg::DRIVE_KICK_DECISION, kNow_ns, {0.0, 1.0, 0.0}, kNow_ns));
+  EXPECT_TRUE(arbiter.receive(msg::DRIVE_TEAM, kNow_ns, {0.0, 2.0, 0.0}, kNow_ns));
   return arbiter;
 }
 
@@ -58,7 +58,7 @@ TEST(DriveArbiter, DecidesByModeBallAndGame) {
 
 TEST(DriveArbiter, WithoutATeamsProgramKickDecisionGoesOnWhileTheGameStands) {
   DriveArbiter arbiter{DriveMode::kAlways, timeouts(0.2, 0.2)};
-  arbiter.hear(msg::DRIVE_KICK_DECISION, kNow_ns, {}, kNow_ns);
+  arbiter.receive(msg::DRIVE_KICK_DECISION, kNow_ns, {}, kNow_ns);
   EXPECT_EQ(arbiter.decide(kNow_ns, kStanding).source, msg::DRIVE_KICK_DECISION);
   EXPECT_FALSE(arbiter.situation_matters(kNow_ns));
 }
@@ -66,11 +66,11 @@ TEST(DriveArbiter, WithoutATeamsProgramKickDecisionGoesOnWhileTheGameStands) {
 TEST(DriveArbiter, EachGoesSilentAfterItsOwnTimeoutAndTheOtherDoesNotStepIn) {
   for (const msg::DriveSource silent : {msg::DRIVE_KICK_DECISION, msg::DRIVE_TEAM}) {
     DriveArbiter arbiter{DriveMode::kWithBall, timeouts(0.1, 0.3)};
-    arbiter.hear(silent, kNow_ns, {1.0, 0.0, 0.0}, kNow_ns);
+    arbiter.receive(silent, kNow_ns, {1.0, 0.0, 0.0}, kNow_ns);
     const bool team = silent == msg::DRIVE_TEAM;
     const DriveSituation situation = team ? kAway : kHeld;
     const std::int64_t last_ns = kNow_ns + (team ? 300'000'000 : 100'000'000);
-    arbiter.hear(team ? msg::DRIVE_KICK_DECISION : msg::DRIVE_TEAM, last_ns, {9.0, 0.0, 0.0}, last_ns);
+    arbiter.receive(team ? msg::DRIVE_KICK_DECISION : msg::DRIVE_TEAM, last_ns, {9.0, 0.0, 0.0}, last_ns);
     EXPECT_EQ(arbiter.decide(last_ns, situation).source, silent);
     const ObeyedDrive obeyed = arbiter.decide(last_ns + 1, situation);
     EXPECT_EQ(obeyed.source, msg::DRIVE_NOBODY);
@@ -87,7 +87,7 @@ TEST(DriveArbiter, WhoNeverSpokeHasNoSilence) {
 
 TEST(DriveArbiter, ACommandThatIsNotFiniteIsStandstill) {
   DriveArbiter arbiter = told_by_both(DriveMode::kAdvice);
-  EXPECT_TRUE(arbiter.hear(msg::DRIVE_TEAM, kNow_ns, {0.0, std::numeric_limits<double>::quiet_NaN(), 1.0}, kNow_ns));
+  EXPECT_TRUE(arbiter.receive(msg::DRIVE_TEAM, kNow_ns, {0.0, std::numeric_limits<double>::quiet_NaN(), 1.0}, kNow_ns));
   const ObeyedDrive obeyed = arbiter.decide(kNow_ns, kAway);
   EXPECT_EQ(obeyed.source, msg::DRIVE_TEAM);
   EXPECT_EQ(obeyed.twist.vy_mps, 0.0);
@@ -98,7 +98,7 @@ TEST(DriveArbiter, NoInstantIsSoFarOffThatItCounts) {
   DriveArbiter arbiter = told_by_both(DriveMode::kAdvice);
   for (const std::int64_t t_ns :
        {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1}, std::numeric_limits<std::int64_t>::max()})
-    EXPECT_FALSE(arbiter.hear(msg::DRIVE_TEAM, t_ns, {9.0, 9.0, 9.0}, kNow_ns));
+    EXPECT_FALSE(arbiter.receive(msg::DRIVE_TEAM, t_ns, {9.0, 9.0, 9.0}, kNow_ns));
   EXPECT_EQ(arbiter.decide(kNow_ns, kAway).twist.vy_mps, 2.0) << "the one before goes on";
 }
 
@@ -156,7 +156,7 @@ TEST(DriveArbiter, ObeysOneOfTheTwoInItsTimeOrStandsStillWhateverComes) {
       const auto source = *rc::gen::element(msg::DRIVE_NOBODY, msg::DRIVE_KICK_DECISION, msg::DRIVE_TEAM);
       if (source != msg::DRIVE_NOBODY) {
         const Said word{source, now_ns - *rc::gen::inRange<std::int64_t>(-350'000'000, 350'000'000), step + 1.0};
-        const bool taken = arbiter.hear(source, word.t_ns, {word.vx_mps, 0.0, 0.0}, now_ns);
+        const bool taken = arbiter.receive(source, word.t_ns, {word.vx_mps, 0.0, 0.0}, now_ns);
         if (taken) said.push_back(word);
       }
       const DriveSituation situation{*rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>()};

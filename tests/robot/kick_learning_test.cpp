@@ -59,8 +59,8 @@ TEST_F(KickLearningTest, BeginsWithTheFile) {
 }
 
 TEST_F(KickLearningTest, LearnsFromAKickInWhateverOrderItsMessagesCome) {
-  learning.hear(answered(1));
-  learning.hear(decided(1));
+  learning.receive(answered(1));
+  learning.receive(decided(1));
   const auto one = learning.seen(flown(1), 77);
   ASSERT_TRUE(one);
   EXPECT_EQ(one->seq, 2u);
@@ -69,49 +69,49 @@ TEST_F(KickLearningTest, LearnsFromAKickInWhateverOrderItsMessagesCome) {
   EXPECT_EQ(one->kicks, 1u);
   EXPECT_GT(one->speed_ln, 0.05);
   EXPECT_LT(one->speed_ln_se, learning.first().speed_ln_se + 1e-12);
-  learning.hear(decided(2));
-  learning.hear(answered(2));
+  learning.receive(decided(2));
+  learning.receive(answered(2));
   EXPECT_EQ(learning.seen(flown(2), 78)->seq, 3u);
 }
 
 TEST_F(KickLearningTest, IsMovedByNoKickThatNobodySawOrGave) {
-  learning.hear(decided(1));
+  learning.receive(decided(1));
   EXPECT_FALSE(learning.seen(flown(1), 1)) << "no receipt";
-  learning.hear(answered(1, false));
+  learning.receive(answered(1, false));
   EXPECT_FALSE(learning.seen(flown(1), 1)) << "refused";
-  learning.hear(answered(1));
+  learning.receive(answered(1));
   msg::KickOutcome unseen = flown(1);
   unseen.flight_speed_mps = kNaN;
   EXPECT_FALSE(learning.seen(unseen, 1)) << "no flight";
   EXPECT_FALSE(learning.seen(flown(9), 1)) << "another kick";
-  learning.hear(decided(5, false));
+  learning.receive(decided(5, false));
   EXPECT_FALSE(learning.seen(flown(0), 1)) << "a decision that held";
   msg::KickReceipt flat = answered(6);
   flat.kick_kind = 1;
-  learning.hear(decided(6));
-  learning.hear(flat);
+  learning.receive(decided(6));
+  learning.receive(flat);
   EXPECT_FALSE(learning.seen(flown(6), 1)) << "a further kind of kick";
 }
 
 TEST_F(KickLearningTest, ASecondOutcomeOfAKickSaysNothingNew) {
-  learning.hear(decided(1));
-  learning.hear(answered(1));
+  learning.receive(decided(1));
+  learning.receive(answered(1));
   EXPECT_TRUE(learning.seen(flown(1), 1));
   EXPECT_FALSE(learning.seen(flown(1), 2));
 }
 
 TEST_F(KickLearningTest, KeepsNoMoreKicksThanMayBeOpen) {
   for (int i = 1; i <= 100; ++i) {
-    learning.hear(decided(i));
-    learning.hear(answered(i));
+    learning.receive(decided(i));
+    learning.receive(answered(i));
   }
   EXPECT_FALSE(learning.seen(flown(1), 1));
   EXPECT_TRUE(learning.seen(flown(100), 1));
 }
 
 TEST_F(KickLearningTest, ItsMessageIsItsEstimate) {
-  learning.hear(decided(1));
-  learning.hear(answered(1));
+  learning.receive(decided(1));
+  learning.receive(answered(1));
   const auto message = learning.seen(flown(1), 1);
   ASSERT_TRUE(message);
   const kicking::KickerEstimate estimate = estimate_of(*message);

@@ -42,8 +42,8 @@ const char* name(KickerEvent event) {
       return "fault";
     case kOverVoltage:
       return "over-voltage";
-    case kSound:
-      return "sound";
+    case kHealthy:
+      return "healthy";
     case kDecisionLost:
       return "decision node lost";
     case kEnd:
@@ -152,7 +152,7 @@ TEST(VoltageWatch, LeavesOneThatRisesOrIsNotChargedOrNotMeasured) {
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(watch.stuck(modelled, true));
 }
 
-class DeskOfSomeCapabilities : public testing::TestWithParam<int> {
+class ControllerOfSomeCapabilities : public testing::TestWithParam<int> {
  protected:
   hal::KickerCapabilities can() const {
     return {.charge_control = (GetParam() & 1) != 0,
@@ -165,7 +165,8 @@ class DeskOfSomeCapabilities : public testing::TestWithParam<int> {
     if (can().voltage) out.voltage_v = voltage_v;
     return out;
   }
-  msg::KickerStatus at(std::int64_t t_ms, double charge, double voltage_v, RefereeSays says = RefereeSays::kPlay) {
+  msg::KickerStatus at(std::int64_t t_ms, double charge, double voltage_v,
+                       RefereePermission says = RefereePermission::kPlay) {
     now_ns = t_ms * kMs;
     return desk.status(sample(charge, voltage_v), says, now_ns);
   }
@@ -183,8 +184,8 @@ class DeskOfSomeCapabilities : public testing::TestWithParam<int> {
   std::int64_t now_ns = 0;
 };
 
-TEST_P(DeskOfSomeCapabilities, GoesThroughAKick) {
-  EXPECT_EQ(at(1000, 0.2, 100.0, RefereeSays::kStop).state, msg::STATE_OFF);
+TEST_P(ControllerOfSomeCapabilities, GoesThroughAKick) {
+  EXPECT_EQ(at(1000, 0.2, 100.0, RefereePermission::kStop).state, msg::STATE_OFF);
   EXPECT_EQ(desk.charge_command(), ChargeCommand::kHold);
   EXPECT_EQ(at(1020, 0.2, 100.0).state, msg::STATE_CHARGING);
   EXPECT_EQ(desk.charge_command(), ChargeCommand::kCharge);
@@ -197,10 +198,10 @@ TEST_P(DeskOfSomeCapabilities, GoesThroughAKick) {
   EXPECT_EQ(at(1560, 1.0, 300.0).state, msg::STATE_READY);
 }
 
-TEST_P(DeskOfSomeCapabilities, IsNotReadyBeforeItHasRestedThoughAStopLedPastCooling) {
+TEST_P(ControllerOfSomeCapabilities, IsNotReadyBeforeItHasRestedThoughAStopLedPastCooling) {
   at(1000, 1.0, 300.0);
   EXPECT_EQ(order(1), msg::REFUSAL_NONE);
-  EXPECT_EQ(at(1020, 1.0, 300.0, RefereeSays::kStop).state, msg::STATE_OFF);
+  EXPECT_EQ(at(1020, 1.0, 300.0, RefereePermission::kStop).state, msg::STATE_OFF);
   EXPECT_EQ(at(1040, 1.0, 300.0).state, msg::STATE_CHARGING) << "its pulse may run";
   EXPECT_EQ(at(1100, 1.0, 300.0).state, msg::STATE_CHARGING) << "not at rest";
   EXPECT_EQ(order(2), msg::REFUSAL_DOUBLE);
@@ -208,7 +209,7 @@ TEST_P(DeskOfSomeCapabilities, IsNotReadyBeforeItHasRestedThoughAStopLedPastCool
   EXPECT_EQ(order(3), msg::REFUSAL_NONE);
 }
 
-TEST_P(DeskOfSomeCapabilities, EmptiesWhereTheDecisionNodeIsGoneOrTheProgramEnds) {
+TEST_P(ControllerOfSomeCapabilities, EmptiesWhereTheDecisionNodeIsGoneOrTheProgramEnds) {
   at(1000, 1.0, 300.0);
   EXPECT_EQ(desk.charge_command(), ChargeCommand::kCharge);
   desk.decision_node(DecisionNode::kLost, now_ns);
@@ -219,7 +220,7 @@ TEST_P(DeskOfSomeCapabilities, EmptiesWhereTheDecisionNodeIsGoneOrTheProgramEnds
   EXPECT_EQ(desk.end(), ChargeCommand::kDischarge);
 }
 
-TEST_P(DeskOfSomeCapabilities, IsNotChargedBeforeADecisionNodeWasHeard) {
+TEST_P(ControllerOfSomeCapabilities, IsNotChargedBeforeADecisionNodeWasHeard) {
   desk = KickerController{{}, 0.02, {}, 1};
   EXPECT_EQ(at(1000, 1.0, 300.0).state, msg::STATE_OFF);
   EXPECT_EQ(desk.charge_command(), ChargeCommand::kHold);
@@ -229,7 +230,7 @@ TEST_P(DeskOfSomeCapabilities, IsNotChargedBeforeADecisionNodeWasHeard) {
   EXPECT_EQ(desk.charge_command(), ChargeCommand::kCharge);
 }
 
-TEST_P(DeskOfSomeCapabilities, DoubtsAVoltageWhereItIsMeasured) {
+TEST_P(ControllerOfSomeCapabilities, DoubtsAVoltageWhereItIsMeasured) {
   for (std::int64_t t_ms = 0; t_ms <= 1100; t_ms += 20) at(t_ms, 0.2, 100.0);
   const msg::KickerStatus said = at(1120, 0.2, 100.0);
   EXPECT_EQ(said.state, can().voltage ? msg::STATE_FAULT : msg::STATE_CHARGING);
@@ -238,7 +239,7 @@ TEST_P(DeskOfSomeCapabilities, DoubtsAVoltageWhereItIsMeasured) {
   EXPECT_EQ(said.charge_modelled, !can().voltage);
 }
 
-TEST_P(DeskOfSomeCapabilities, EmptiesAtOverVoltage) {
+TEST_P(ControllerOfSomeCapabilities, EmptiesAtOverVoltage) {
   at(1000, 1.0, 300.0);
   const msg::KickerStatus said = at(1020, 1.2, 340.0);
   EXPECT_EQ(said.state, can().voltage ? msg::STATE_FAULT : msg::STATE_CHARGING);
@@ -247,11 +248,11 @@ TEST_P(DeskOfSomeCapabilities, EmptiesAtOverVoltage) {
   EXPECT_EQ(at(1040, 1.0, 300.0).state, can().voltage ? msg::STATE_FAULT : msg::STATE_READY)
       << "a charger that runs away";
   now_ns = 1060 * kMs;
-  desk.status(sample(1.0, 300.0, false), RefereeSays::kPlay, now_ns);
+  desk.status(sample(1.0, 300.0, false), RefereePermission::kPlay, now_ns);
   EXPECT_EQ(at(1080, 1.0, 300.0).state, msg::STATE_READY) << "somebody has looked";
 }
 
-TEST_P(DeskOfSomeCapabilities, IsRefusedWhereOneThatItLacksIsDemanded) {
+TEST_P(ControllerOfSomeCapabilities, IsRefusedWhereOneThatItLacksIsDemanded) {
   using config::Capability;
   const std::vector<std::pair<Capability, bool>> all{{Capability::kChargeControl, can().charge_control},
                                                      {Capability::kVoltage, can().voltage},
@@ -261,7 +262,7 @@ TEST_P(DeskOfSomeCapabilities, IsRefusedWhereOneThatItLacksIsDemanded) {
   for (const auto& [capability, has] : all) EXPECT_EQ(missing({capability}, can()).empty(), has);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, DeskOfSomeCapabilities, testing::Range(0, 16));
+INSTANTIATE_TEST_SUITE_P(Each, ControllerOfSomeCapabilities, testing::Range(0, 16));
 
 TEST(KickerController, AcceptsNoOrderButInReady) {
   std::mt19937 random(5);
@@ -277,7 +278,7 @@ TEST(KickerController, AcceptsNoOrderButInReady) {
                                    .armed = random() % 8 != 0,
                                    .fault = random() % 16 == 0 ? hal::KickerFault::kCoil : hal::KickerFault::kNone};
     const bool stops = random() % 8 == 0;
-    const auto status = desk.status(sample, stops ? RefereeSays::kStop : RefereeSays::kPlay, now_ns);
+    const auto status = desk.status(sample, stops ? RefereePermission::kStop : RefereePermission::kPlay, now_ns);
     EXPECT_EQ(status.ready, status.state == msg::STATE_READY);
     msg::KickOrder wish{};
     wish.t_ns = wish.fire_t_ns = now_ns;

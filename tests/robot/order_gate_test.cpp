@@ -38,8 +38,8 @@ msg::KickOrder order_at(std::int64_t t_ns, std::int64_t kick_id = 1) {
 struct Case {
   config::KickerDriver settings{};
   hal::KickerSample sample{kNow_ns, 1.0, true, hal::KickerFault::kNone};
-  bool heard = true;
-  RefereeSays referee = RefereeSays::kPlay;
+  bool received = true;
+  RefereePermission referee = RefereePermission::kPlay;
   std::vector<msg::KickOrder> before{};
   msg::KickOrder order = order_at(kNow_ns);
   std::int64_t now_ns = kNow_ns;
@@ -50,11 +50,11 @@ struct Case {
     if (!before.empty()) {  // answered while everything was well
       for (const auto& past : before) {
         gate.device({past.t_ns, 1.0, true, hal::KickerFault::kNone});
-        gate.referee(RefereeSays::kPlay);
+        gate.referee(RefereePermission::kPlay);
         gate.judge(past, past.t_ns, OrderBy::kOwnDecision);
       }
     }
-    if (heard) gate.device(sample);
+    if (received) gate.device(sample);
     gate.referee(referee);
     return gate;
   }
@@ -78,7 +78,7 @@ TEST(OrderGate, RefusesInTheOrderOfTheTableInTheDocuments) {
   Case c;  // everything is wrong with it; each step mends what was refused
   c.powers = {{15.0, 50.0}, {15.0, 50.0}};
   c.sample = {kNow_ns - 10'000 * kMs, 0.0, false, hal::KickerFault::kCoil};
-  c.referee = RefereeSays::kSilent;
+  c.referee = RefereePermission::kSilent;
   c.before = {order_at(kNow_ns - 5'000 * kMs, 7)};
   c.order = order_at(kNow_ns - 5'000 * kMs, 0);
   c.order.possession = false;
@@ -99,7 +99,7 @@ TEST(OrderGate, RefusesInTheOrderOfTheTableInTheDocuments) {
         }}},
       {msg::REFUSAL_NO_BALL, {"no_ball", [&] { c.order.possession = true; }}},
       {msg::REFUSAL_UNARMED, {"unarmed", [&] { c.sample.armed = true; }}},
-      {msg::REFUSAL_REFEREE_SILENT, {"referee_silent", [&] { c.referee = RefereeSays::kPlay; }}},
+      {msg::REFUSAL_REFEREE_SILENT, {"referee_silent", [&] { c.referee = RefereePermission::kPlay; }}},
       {msg::REFUSAL_STALE, {"stale", [&] { c.order = order_at(kNow_ns, 7); }}},
       {msg::REFUSAL_DOUBLE, {"double", [&] { c.order.kick_id = 8; }}},
       {msg::REFUSAL_CHARGING,
@@ -209,12 +209,12 @@ TEST(OrderGate, RefusesAnOldOrderWhateverItSaysOfItsValidity) {
 
 TEST(OrderGate, ARefereeWhoFellSilentIsAReasonOfItsOwn) {
   Case c;
-  c.referee = RefereeSays::kSilent;
+  c.referee = RefereePermission::kSilent;
   EXPECT_EQ(c.answer(), msg::REFUSAL_REFEREE_SILENT);
   c.sample.armed = false;
   EXPECT_EQ(c.answer(), msg::REFUSAL_UNARMED) << "the switch is nearer";
   c = {};
-  c.referee = RefereeSays::kNothing;
+  c.referee = RefereePermission::kNothing;
   EXPECT_EQ(c.answer(), msg::REFUSAL_UNARMED);
 }
 
@@ -287,7 +287,7 @@ std::optional<OrderGate::Withdrawal> withdrawn_after(std::int64_t passed_ms,
 }
 
 TEST(OrderGate, CallsAnOrderOffWhoseInstantLiesAheadWhenItHasBecomeUnsafe) {
-  const auto stopped = [](OrderGate& gate) { gate.referee(RefereeSays::kStop); };
+  const auto stopped = [](OrderGate& gate) { gate.referee(RefereePermission::kStop); };
   const auto opened = [](OrderGate& gate) { gate.device({kNow_ns, 1.0, false, hal::KickerFault::kNone}); };
   const auto broken = [](OrderGate& gate) { gate.device({kNow_ns, 1.0, true, hal::KickerFault::kCoil}); };
   const auto well = [](OrderGate&) {};
@@ -308,12 +308,12 @@ TEST(OrderGate, AnOrderThatWasCalledOffCountsAsRefusedAndDelaysNobody) {
   auto later = order_at(kNow_ns, 7);
   later.fire_t_ns += 15 * kMs;
   gate.judge(later, kNow_ns, OrderBy::kOwnDecision);
-  gate.referee(RefereeSays::kStop);
+  gate.referee(RefereePermission::kStop);
   ASSERT_TRUE(gate.withdraw(kNow_ns + kMs));
   EXPECT_EQ(gate.handled(), 1u);
   EXPECT_EQ(gate.refused(), 1u);
   EXPECT_FALSE(gate.last_accepted());
-  gate.referee(RefereeSays::kPlay);
+  gate.referee(RefereePermission::kPlay);
   EXPECT_EQ(gate.judge(order_at(kNow_ns + 2 * kMs, 8), kNow_ns + 2 * kMs, OrderBy::kOwnDecision), msg::REFUSAL_NONE);
   EXPECT_EQ(gate.judge(order_at(kNow_ns + 3 * kMs, 7), kNow_ns + 3 * kMs, OrderBy::kOwnDecision), msg::REFUSAL_DOUBLE)
       << "it was answered";
@@ -340,10 +340,10 @@ TEST(OrderGate, RefusesWhileUnarmed) {
   by_switch.sample.armed = false;
   EXPECT_EQ(by_switch.answer(), msg::REFUSAL_UNARMED);
   Case by_referee;
-  by_referee.referee = RefereeSays::kStop;
+  by_referee.referee = RefereePermission::kStop;
   EXPECT_EQ(by_referee.answer(), msg::REFUSAL_UNARMED);
   Case before_the_first_sample;
-  before_the_first_sample.heard = false;
+  before_the_first_sample.received = false;
   EXPECT_EQ(before_the_first_sample.answer(), msg::REFUSAL_UNARMED);
 }
 
@@ -457,7 +457,7 @@ TEST(OrderGate, NamesTheFirstReasonOfSeveral) {
   const std::vector<Wrong> in_order{
       {msg::REFUSAL_FAULT, [](Case& c) { c.sample.fault = hal::KickerFault::kCoil; }},
       {msg::REFUSAL_OUT_OF_RANGE, [](Case& c) { c.order.power = 99.0; }},
-      {msg::REFUSAL_UNARMED, [](Case& c) { c.referee = RefereeSays::kStop; }},
+      {msg::REFUSAL_UNARMED, [](Case& c) { c.referee = RefereePermission::kStop; }},
       {msg::REFUSAL_STALE, [](Case& c) { c.order.valid_until_t_ns = kNow_ns - 1; }},
       {msg::REFUSAL_DOUBLE, [](Case& c) { c.before = {order_at(kNow_ns - 900 * kMs, c.order.kick_id)}; }},
       {msg::REFUSAL_CHARGING, [](Case& c) { c.sample.charge = 0.5; }}};
@@ -489,16 +489,16 @@ TEST(OrderGate, IsReadyExactlyWhenItWouldAccept) {
   for (const double charge : {0.2, 0.95})
     for (const bool armed : {false, true})
       for (const bool playing : {false, true})
-        for (const bool heard : {false, true})
+        for (const bool received : {false, true})
           for (const auto fault : {hal::KickerFault::kNone, hal::KickerFault::kCharger})
             for (const std::int64_t sample_age_ms : {0, 50, 150})
               for (const std::int64_t last_kick_ms : {0, 100, 499, 500, 5000}) {
                 Case c;
-                c.heard = heard;
-                c.referee = playing ? RefereeSays::kPlay : RefereeSays::kSilent;
+                c.received = received;
+                c.referee = playing ? RefereePermission::kPlay : RefereePermission::kSilent;
                 c.sample = {kNow_ns - sample_age_ms * kMs, charge, armed, fault};
                 if (last_kick_ms > 0) c.before = {order_at(kNow_ns - last_kick_ms * kMs, 1)};
-                if (!heard) c.before.clear();
+                if (!received) c.before.clear();
                 c.order.kick_id = 2;
                 OrderGate gate = c.gate();
                 const bool said = gate.ready(kNow_ns);
@@ -520,7 +520,7 @@ TEST(OrderGate, AcceptsNoOrderTwiceAndNoTwoWithinTheInterval) {
   for (int i = 0; i < 20000; ++i) {
     now_ns += static_cast<std::int64_t>(random() % 100) * kMs;
     gate.device({now_ns, chance(0.9) ? 1.0 : 0.3, chance(0.95), hal::KickerFault::kNone});
-    gate.referee(chance(0.95) ? RefereeSays::kPlay : RefereeSays::kStop);
+    gate.referee(chance(0.95) ? RefereePermission::kPlay : RefereePermission::kStop);
     const bool again = chance(0.5) && next_id > 1;
     const std::int64_t back = std::min<std::int64_t>(next_id - 1, 1 + static_cast<std::int64_t>(random() % 60));
     const std::int64_t id = again ? next_id - back : next_id++;

@@ -24,8 +24,8 @@ msg::TeamState said(PeerTable& from, std::int64_t sent_ns) {
 TEST(PeerTable, EchoesEachOtherInTurn) {
   PeerTable ours{3, 0}, base{0, 0}, five{5, 0};
   EXPECT_FALSE(said(ours, kS).echoes) << "nobody was heard";
-  ours.heard(said(base, 10), kS);
-  ours.heard(said(five, 20), kS);
+  ours.received(said(base, 10), kS);
+  ours.received(said(five, 20), kS);
   std::vector<int> turns;
   for (int i = 0; i < 4; ++i) turns.push_back(said(ours, kS + i).echo_robot_id);
   EXPECT_THAT(turns, testing::ElementsAre(5, 0, 5, 0));
@@ -34,15 +34,15 @@ TEST(PeerTable, EchoesEachOtherInTurn) {
 TEST(PeerTable, AnOldStateThatCameLateIsNoNews) {
   PeerTable ours{1, 0}, other{2, 0};
   const auto first = said(other, kS), second = said(other, kS + 100 * kMs);
-  EXPECT_TRUE(ours.heard(second, kS));
-  EXPECT_FALSE(ours.heard(first, kS + 1));
-  EXPECT_FALSE(ours.heard(second, kS + 2)) << "nor one that comes twice";
+  EXPECT_TRUE(ours.received(second, kS));
+  EXPECT_FALSE(ours.received(first, kS + 1));
+  EXPECT_FALSE(ours.received(second, kS + 2)) << "nor one that comes twice";
 }
 
 TEST(PeerTable, AnotherLifeBeginsAnew) {
   PeerTable ours{1, 0}, other{2, 5}, reborn{2, 9};
-  for (int i = 0; i < 5; ++i) ours.heard(said(other, kS + i), kS + i);
-  EXPECT_TRUE(ours.heard(said(reborn, 10), kS + 10)) << "its numbers begin with 1";
+  for (int i = 0; i < 5; ++i) ours.received(said(other, kS + i), kS + i);
+  EXPECT_TRUE(ours.received(said(reborn, 10), kS + 10)) << "its numbers begin with 1";
 }
 
 TEST(PeerTable, OurOwnNumberFromAnotherLifeIsATwin) {
@@ -50,13 +50,13 @@ TEST(PeerTable, OurOwnNumberFromAnotherLifeIsATwin) {
   EXPECT_FALSE(ours.is_duplicate(said(ours, kS)));
   const auto word = said(twin, kS);
   EXPECT_TRUE(ours.is_duplicate(word));
-  EXPECT_FALSE(ours.heard(word, kS));
+  EXPECT_FALSE(ours.received(word, kS));
 }
 
 TEST(PeerTable, AnEchoOfAnEarlierLifeIsNoMeasurement) {
   PeerTable before{1, 0}, now{1, 10 * kS}, other{2, 0};
-  other.heard(said(before, 9 * kS), 9 * kS);
-  now.heard(said(other, 11 * kS), 11 * kS);
+  other.received(said(before, 9 * kS), 9 * kS);
+  now.received(said(other, 11 * kS), 11 * kS);
   EXPECT_FALSE(now.offset(2, 11 * kS));
 }
 
@@ -64,8 +64,8 @@ class RefereeOfTheBase : public testing::Test {
  protected:
   // The base is 50 s ahead; each message takes 2 ms.
   void meet(std::int64_t now_ns) {
-    base.heard(said(robot, now_ns), now_ns + 50 * kS + 2 * kMs);
-    robot.heard(said(base, now_ns + 50 * kS + 2 * kMs), now_ns + 4 * kMs);
+    base.received(said(robot, now_ns), now_ns + 50 * kS + 2 * kMs);
+    robot.received(said(base, now_ns + 50 * kS + 2 * kMs), now_ns + 4 * kMs);
   }
   static msg::Referee word(std::int64_t t_ns, bool playing) {
     msg::Referee word{};
@@ -120,8 +120,8 @@ TEST(TeamSummary, WhatIsSilentIsAnAlarmAndNoNumber) {
   inputs.kicker.word->fault = msg::FAULT_COIL;
   inputs.kicker.word->charge = 0.5;
   inputs.referee.word.emplace();
-  inputs.world.heard_ns = inputs.kicker.heard_ns = inputs.referee.heard_ns = inputs.vision_heard_ns =
-      inputs.drive_heard_ns = 10 * kS;
+  inputs.world.received_ns = inputs.kicker.received_ns = inputs.referee.received_ns = inputs.vision_received_ns =
+      inputs.drive_received_ns = 10 * kS;
   const msg::TeamSummary well = robot_summary(inputs, 10 * kS + kAlarmSilence_ns);
   EXPECT_EQ(alarm_words(well.alarms), "kicker fault");
   EXPECT_EQ(well.x_m, 1.5);
@@ -131,14 +131,14 @@ TEST(TeamSummary, WhatIsSilentIsAnAlarmAndNoNumber) {
 }
 
 TEST(TeamSummary, ComesBackAsTheBeliefThatTheRefereeBoxIsTold) {
-  msg::TeamHeard heard{};
-  heard.other_robot_id = 4;
-  heard.t_ns = 12;
-  EXPECT_FALSE(world_of(heard)) << "it does not know where it is";
-  heard.summary.placed = heard.summary.ball_known = true;
-  heard.summary.x_m = -2.0;
-  heard.summary.ball_y_m = 3.0;
-  const auto world = world_of(heard);
+  msg::TeamHeard received{};
+  received.other_robot_id = 4;
+  received.t_ns = 12;
+  EXPECT_FALSE(world_of(received)) << "it does not know where it is";
+  received.summary.placed = received.summary.ball_known = true;
+  received.summary.x_m = -2.0;
+  received.summary.ball_y_m = 3.0;
+  const auto world = world_of(received);
   ASSERT_TRUE(world);
   EXPECT_EQ(world->robot_id, 4);
   EXPECT_EQ(world->t_ns, 12);

@@ -16,8 +16,8 @@ using enum hal::refbox::CommandKind;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr Said ours(CommandKind kind) { return {.kind = kind, .team = 0}; }
-constexpr Said all(CommandKind kind) { return {.kind = kind}; }
+constexpr BoxCommand ours(CommandKind kind) { return {.kind = kind, .team = 0}; }
+constexpr BoxCommand all(CommandKind kind) { return {.kind = kind}; }
 
 sim::RefereeState word(int half, bool playing, std::uint32_t possession_id, std::uint32_t goals = 0) {
   return {
@@ -26,40 +26,40 @@ sim::RefereeState word(int half, bool playing, std::uint32_t possession_id, std:
 
 TEST(RefereeOutput, SaysWhatBeginsAHalfThenEachStopSetPieceAndStartOnce) {
   RefereeOutput voice;
-  EXPECT_THAT(voice.hear(word(1, false, 1)), ElementsAre(all(kFirstHalf), ours(kKickOff)));
-  EXPECT_THAT(voice.hear(word(1, false, 1)), IsEmpty());
-  EXPECT_THAT(voice.hear(word(1, true, 1)), ElementsAre(all(kStart)));
-  EXPECT_THAT(voice.hear(word(1, true, 1)), IsEmpty());
-  EXPECT_THAT(voice.hear(word(1, false, 2)), ElementsAre(all(kStop), ours(kFreeKick)));
-  EXPECT_THAT(voice.hear(word(1, true, 2)), ElementsAre(all(kStart)));
+  EXPECT_THAT(voice.receive(word(1, false, 1)), ElementsAre(all(kFirstHalf), ours(kKickOff)));
+  EXPECT_THAT(voice.receive(word(1, false, 1)), IsEmpty());
+  EXPECT_THAT(voice.receive(word(1, true, 1)), ElementsAre(all(kStart)));
+  EXPECT_THAT(voice.receive(word(1, true, 1)), IsEmpty());
+  EXPECT_THAT(voice.receive(word(1, false, 2)), ElementsAre(all(kStop), ours(kFreeKick)));
+  EXPECT_THAT(voice.receive(word(1, true, 2)), ElementsAre(all(kStart)));
 }
 
 TEST(RefereeOutput, GivesAGoalWhenPlayIsStopped) {
   RefereeOutput voice;
-  voice.hear(word(1, true, 1));
-  EXPECT_THAT(voice.hear(word(1, true, 1, 2)), IsEmpty());
-  EXPECT_THAT(voice.hear(word(1, false, 2, 2)), ElementsAre(all(kStop), ours(kGoal), ours(kGoal), ours(kFreeKick)));
+  voice.receive(word(1, true, 1));
+  EXPECT_THAT(voice.receive(word(1, true, 1, 2)), IsEmpty());
+  EXPECT_THAT(voice.receive(word(1, false, 2, 2)), ElementsAre(all(kStop), ours(kGoal), ours(kGoal), ours(kFreeKick)));
 }
 
 TEST(RefereeOutput, EndsAHalfBeforeTheNextBegins) {
   RefereeOutput voice;
-  voice.hear(word(1, true, 3));
-  EXPECT_THAT(voice.hear(word(1, false, 3)), ElementsAre(all(kStop)));
-  EXPECT_THAT(voice.hear(word(2, false, 1)), ElementsAre(all(kHalfTime), all(kSecondHalf), ours(kKickOff)));
-  EXPECT_THAT(voice.hear(word(3, false, 1)), ElementsAre(all(kEndGame), all(kFirstHalfOvertime), ours(kKickOff)));
-  EXPECT_THAT(voice.hear(word(4, false, 1)), ElementsAre(all(kEndPart), all(kSecondHalfOvertime), ours(kKickOff)));
+  voice.receive(word(1, true, 3));
+  EXPECT_THAT(voice.receive(word(1, false, 3)), ElementsAre(all(kStop)));
+  EXPECT_THAT(voice.receive(word(2, false, 1)), ElementsAre(all(kHalfTime), all(kSecondHalf), ours(kKickOff)));
+  EXPECT_THAT(voice.receive(word(3, false, 1)), ElementsAre(all(kEndGame), all(kFirstHalfOvertime), ours(kKickOff)));
+  EXPECT_THAT(voice.receive(word(4, false, 1)), ElementsAre(all(kEndPart), all(kSecondHalfOvertime), ours(kKickOff)));
   EXPECT_THAT(RefereeOutput::over(), ElementsAre(all(kStop), all(kGameOver)));
 }
 
 TEST(RefereeOutput, AStopOfNoTimeIsSaid) {
   RefereeOutput voice;
-  voice.hear(word(1, true, 1));
-  EXPECT_THAT(voice.hear(word(1, true, 2)), ElementsAre(all(kStop), ours(kFreeKick), all(kStart)));
+  voice.receive(word(1, true, 1));
+  EXPECT_THAT(voice.receive(word(1, true, 2)), ElementsAre(all(kStop), ours(kFreeKick), all(kStart)));
 }
 
 TEST(RefereeOutput, TheRightTeamIsNamedWhereItIsOurs) {
   RefereeOutput voice{1};
-  EXPECT_THAT(voice.hear(word(1, false, 1)), ElementsAre(all(kFirstHalf), Said{.kind = kKickOff, .team = 1}));
+  EXPECT_THAT(voice.receive(word(1, false, 1)), ElementsAre(all(kFirstHalf), BoxCommand{.kind = kKickOff, .team = 1}));
 }
 
 class RefereeVoiceOnTheWire : public testing::TestWithParam<Protocol> {};
@@ -76,10 +76,10 @@ TEST_P(RefereeVoiceOnTheWire, WhoeverHearsItKnowsTheSimulatedRefereesWord) {
   MatchState state;
   state.connected();
   for (const sim::Sensors& now : record.sensors) {
-    for (const Said& said : voice.hear(now.referee)) {
-      for (const Word& heard : stream.add(wire_text(said, box))) {
-        ASSERT_TRUE(std::holds_alternative<Command>(heard)) << name(said.kind);
-        state.command(std::get<Command>(heard), now.t_ns);
+    for (const BoxCommand& said : voice.receive(now.referee)) {
+      for (const ParsedCommand& received : stream.add(wire_text(said, box))) {
+        ASSERT_TRUE(std::holds_alternative<Command>(received)) << name(said.kind);
+        state.command(std::get<Command>(received), now.t_ns);
       }
     }
     const msg::Referee known = state.message(now.t_ns);

@@ -18,13 +18,13 @@ class SetPieceClockTest : public testing::Test {
   /// The box says so, and the clock hears it at once and again 100 ms later.
   void box_says(CommandKind kind, Side side = Side::kBoth) {
     state.command({kind, side, {}}, now_ns);
-    clock.hear(state.message(now_ns));
-    clock.hear(state.message(now_ns));
+    clock.receive(state.message(now_ns));
+    clock.receive(state.message(now_ns));
   }
   /// What is left after a time with the ball in the handler or not.
   std::optional<double> left_s_after(double time_s, bool possession) {
     now_ns += static_cast<std::int64_t>(time_s * 1e9);
-    clock.hear(state.message(now_ns));
+    clock.receive(state.message(now_ns));
     msg::WorldState world{};
     world.t_ns = now_ns;
     world.possession = possession;

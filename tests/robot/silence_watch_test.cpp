@@ -36,14 +36,14 @@ TEST_F(SilenceWatchTest, AStreamThatWasNeverHeardIsNotSilent) { EXPECT_THAT(look
 
 TEST_F(SilenceWatchTest, AStreamThatComesOnTimeIsNotSilent) {
   for (std::int64_t t = 0; t < 5'000 * kMs; t += kPeriod) {
-    watch.heard(odometry, 1, t);
+    watch.received(odometry, 1, t);
     EXPECT_THAT(look_until(t), IsEmpty());
   }
 }
 
 TEST_F(SilenceWatchTest, MoreThanThreePeriodsAreASilenceWithItsLastAndItsFirstSample) {
   look_until(80 * kMs);
-  watch.heard(odometry, 1, 100 * kMs);
+  watch.received(odometry, 1, 100 * kMs);
   EXPECT_THAT(look_until(160 * kMs), IsEmpty());
   const auto began = look_until(240 * kMs);
   ASSERT_THAT(began, SizeIs(1));
@@ -51,7 +51,7 @@ TEST_F(SilenceWatchTest, MoreThanThreePeriodsAreASilenceWithItsLastAndItsFirstSa
   EXPECT_EQ(began[0].from_ns, 100 * kMs);
   EXPECT_FALSE(began[0].to_ns);
   EXPECT_THAT(look_until(1'000 * kMs), IsEmpty()) << "it is said once";
-  watch.heard(odometry, 1, 1'010 * kMs);
+  watch.received(odometry, 1, 1'010 * kMs);
   const auto ended = look_until(1'020 * kMs);
   ASSERT_THAT(ended, SizeIs(1));
   EXPECT_EQ(ended[0].from_ns, 100 * kMs);
@@ -62,11 +62,11 @@ TEST_F(SilenceWatchTest, MoreThanThreePeriodsAreASilenceWithItsLastAndItsFirstSa
 TEST_F(SilenceWatchTest, RobotsAndStreamsAreSilentEachForItself) {
   const std::size_t referee = watch.add(5 * kPeriod);
   for (const std::uint8_t robot : {1, 2}) {
-    watch.heard(odometry, robot, 0);
-    watch.heard(referee, robot, 0);
+    watch.received(odometry, robot, 0);
+    watch.received(referee, robot, 0);
   }
   for (std::int64_t t = 0; t < 200 * kMs; t += kPeriod) {
-    watch.heard(odometry, 2, t);
+    watch.received(odometry, 2, t);
     for (const SilenceEdge& edge : look_until(t)) {
       EXPECT_EQ(edge.stream, odometry);
       EXPECT_EQ(edge.robot_id, 1);
@@ -75,8 +75,8 @@ TEST_F(SilenceWatchTest, RobotsAndStreamsAreSilentEachForItself) {
 }
 
 TEST_F(SilenceWatchTest, AGapThatNoLookSawIsASilenceThatEnded) {
-  watch.heard(odometry, 1, 0);
-  watch.heard(odometry, 1, 80 * kMs);
+  watch.received(odometry, 1, 0);
+  watch.received(odometry, 1, 80 * kMs);
   const auto seen = watch.look(80 * kMs);
   ASSERT_THAT(seen, SizeIs(1));
   EXPECT_EQ(seen[0].from_ns, 0);
@@ -84,28 +84,28 @@ TEST_F(SilenceWatchTest, AGapThatNoLookSawIsASilenceThatEnded) {
 }
 
 TEST_F(SilenceWatchTest, TheLastSampleOnceMoreIsNoNews) {
-  watch.heard(odometry, 1, 0);
+  watch.received(odometry, 1, 0);
   ASSERT_THAT(look_until(200 * kMs), SizeIs(1));
-  watch.heard(odometry, 1, 0);
+  watch.received(odometry, 1, 0);
   EXPECT_THAT(look_until(400 * kMs), IsEmpty());
-  watch.heard(odometry, 1, 410 * kMs);
+  watch.received(odometry, 1, 410 * kMs);
   EXPECT_EQ(watch.look(420 * kMs).at(0).from_ns, 0);
 }
 
 TEST_F(SilenceWatchTest, SamplesThatCameLateButAllAreADelay) {
-  watch.heard(odometry, 1, 0);
+  watch.received(odometry, 1, 0);
   ASSERT_THAT(look_until(200 * kMs), SizeIs(1));
-  for (int i = 1; i <= 10; ++i) watch.heard(odometry, 1, i * kPeriod);
+  for (int i = 1; i <= 10; ++i) watch.received(odometry, 1, i * kPeriod);
   const auto ended = watch.look(220 * kMs);
   ASSERT_THAT(ended, SizeIs(1));
   EXPECT_TRUE(ended[0].was_delay());
 }
 
 TEST_F(SilenceWatchTest, AProcessThatStoodStillCallsNobodySilent) {
-  watch.heard(odometry, 1, 0);
+  watch.received(odometry, 1, 0);
   look_until(0);
   EXPECT_THAT(watch.look(5'000 * kMs), IsEmpty());
-  watch.heard(odometry, 1, 5'000 * kMs - 10 * kMs);
+  watch.received(odometry, 1, 5'000 * kMs - 10 * kMs);
   EXPECT_THAT(watch.look(5'020 * kMs), SizeIs(1)) << "what did not arrive meanwhile is missing all the same";
 }
 
@@ -118,7 +118,7 @@ class SparseLooksTest : public SilenceWatchTest {
   std::vector<std::int64_t> hear_until(std::int64_t end) {
     std::vector<std::int64_t> looks;
     for (; now_ns < end; now_ns += kMs) {
-      if (now_ns % kCycle == 0) watch.heard(odometry, 1, now_ns, now_ns);
+      if (now_ns % kCycle == 0) watch.received(odometry, 1, now_ns, now_ns);
       if (now_ns < due_ns) continue;
       EXPECT_THAT(watch.look(now_ns), IsEmpty());
       looks.push_back(now_ns);
@@ -163,16 +163,16 @@ TEST(SilenceWatch, SeesEveryLongGapAndNoShortOne) {
   for (int run = 0; run < 200; ++run) {
     SilenceWatch watch{kPeriod};
     const std::size_t stream = watch.add(kPeriod);
-    std::int64_t now = 0, look = 0, heard = -1;
+    std::int64_t now = 0, look = 0, received = -1;
     std::optional<std::int64_t> open;
     for (int sample = 0; sample < 100; ++sample) {
       const std::int64_t gap =
           std::uniform_int_distribution<std::int64_t>{1, (random() % 4 == 0 ? 20 : 3) * kPeriod}(random);
-      const std::int64_t next = heard < 0 ? 0 : heard + gap;
+      const std::int64_t next = received < 0 ? 0 : received + gap;
       bool began = open.has_value(), ended = false;
       const auto take = [&](const std::vector<SilenceEdge>& edges) {
         for (const SilenceEdge& edge : edges) {
-          EXPECT_EQ(edge.from_ns, heard);
+          EXPECT_EQ(edge.from_ns, received);
           if (!edge.to_ns) {
             EXPECT_FALSE(began);
             began = true;
@@ -183,9 +183,9 @@ TEST(SilenceWatch, SeesEveryLongGapAndNoShortOne) {
         }
       };
       for (; look < next; look += 1 + static_cast<std::int64_t>(random() % (2 * kPeriod))) take(watch.look(look));
-      watch.heard(stream, 1, next);
+      watch.received(stream, 1, next);
       now = std::max(look, next);
-      if (heard >= 0) {
+      if (received >= 0) {
         take(watch.look(now));
         EXPECT_EQ(ended, gap > kSilentPeriods * kPeriod);
         if (gap > (kSilentPeriods + 4) * kPeriod) {
@@ -196,7 +196,7 @@ TEST(SilenceWatch, SeesEveryLongGapAndNoShortOne) {
         }
       }
       open.reset();
-      heard = next;
+      received = next;
     }
   }
 }

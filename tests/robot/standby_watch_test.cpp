@@ -12,7 +12,7 @@ bool pass(StandbyWatch& watch, std::int64_t& now_ns, int cycles, bool first_spea
   bool in_charge = false;
   for (int i = 0; i < cycles; ++i) {
     now_ns += kCycle_ns;
-    if (first_speaks) watch.heard(now_ns);
+    if (first_speaks) watch.received(now_ns);
     in_charge = watch.in_charge(now_ns);
   }
   return in_charge;

@@ -150,13 +150,13 @@ TEST(WorldModel, AKickEndsAPossession) {
 }
 
 TEST(WorldModel, ARefereeHeardWithoutTheBallCountsOnFromTheHalfsBeginning) {
-  Play heard, late;
-  for (Play* const play : {&heard, &late}) play->referee->half_time_s = 100.0;
-  msg::Referee first = *heard.referee;
+  Play received, late;
+  for (Play* const play : {&received, &late}) play->referee->half_time_s = 100.0;
+  msg::Referee first = *received.referee;
   first.playing = false;
   first.half_time_s = kNaN;
-  heard.model.hear(first);
-  EXPECT_EQ(heard.cycle(20).possession_id, 1u);
+  received.model.receive(first);
+  EXPECT_EQ(received.cycle(20).possession_id, 1u);
   EXPECT_GT(late.cycle(20).possession_id, 1000u) << "a number that nobody has given";
 }
 

@@ -122,7 +122,7 @@ const std::map<std::string, std::vector<std::string>> kLayers{
      {"text", "geometry", "random", "ballistics", "model", "alignment", "outcome", "lob", "fit", "learning", "policy"}},
     {"log", {"schema", "file", "write", "read", "merge", "shards"}},
     {"evaluator",
-     {"stats", "metrics", "render", "sessions", "counting", "drift", "story", "table2", "compare", "value",
+     {"stats", "metrics", "render", "sessions", "counting", "drift", "timeline", "table2", "compare", "value",
       "drift_report", "learning", "imports", "mcap", "export", "page"}},
 };
 
@@ -158,7 +158,7 @@ TEST(Rules, NoFolderHasMoreThan25Files) {
 
 TEST(Rules, NamesUseTheTermsOfTheField) {
   static const std::regex retired{
-      R"(\b\w*(Evening|evening|Glance|Patience|OrderDesk|LabelDesk|RefereeVoice|AnyEar|Twin)\w*)"};
+      R"(\b\w*(Evening|evening|Glance|Patience|OrderDesk|LabelDesk|RefereeVoice|AnyEar|Twin|Story|Stories|Casualty)\w*|\b(story|stories|desk_?|ears?_?|heard_\w*|Maybe)\b)"};
   std::vector<std::string> broken;
   for (const std::string& module : kModules) {
     for (const fs::path& path : sources(module)) {

@@ -72,14 +72,14 @@ class SecuredBus : public testing::Test {
     EXPECT_TRUE(driver.wait_for_writers(1, kPlenty));
     forged.write(order(666));
     decision.write(order(1));
-    std::vector<std::int64_t> heard;
-    while (heard.empty() || heard.back() != 1) {
+    std::vector<std::int64_t> received;
+    while (received.empty() || received.back() != 1) {
       if (!driver.wait(kPlenty)) break;
-      driver.take([&](const msg::KickOrder& order, const auto&) { heard.push_back(order.kick_id); });
+      driver.take([&](const msg::KickOrder& order, const auto&) { received.push_back(order.kick_id); });
     }
     EXPECT_EQ(driver.writers(), 1u);
     EXPECT_EQ(forged.readers(), 0u);
-    return heard;
+    return received;
   }
 
   TeamKeys team;
@@ -161,13 +161,13 @@ class SecuredTeamBus : public SecuredBus {
     EXPECT_TRUE(robot.wait_for_writers(1, kPlenty));
     forged.write(word(666));
     base.write(word(1));
-    std::vector<std::uint32_t> heard;
-    while (heard.empty() || heard.back() != 1) {
+    std::vector<std::uint32_t> received;
+    while (received.empty() || received.back() != 1) {
       if (!robot.wait(kPlenty)) break;
-      robot.take([&](const msg::Referee& word, const auto&) { heard.push_back(word.command_counter); });
+      robot.take([&](const msg::Referee& word, const auto&) { received.push_back(word.command_counter); });
     }
     EXPECT_EQ(forged.readers(), 0u);
-    return heard;
+    return received;
   }
 };
 

@@ -27,10 +27,10 @@ std::map<std::pair<std::uint32_t, std::string>, stats::Counts> by_distance(const
   std::map<std::pair<std::uint32_t, std::string>, stats::Counts> bands;
   const bool apart = !view.report.policies.empty() && view.report.policies.front().blocked_apart;
   for (const PageKick& kick : view.data.kicks) {
-    if (!kick.story.observed || !(kick.story.distance_m > 0.0)) continue;
-    const std::string& outcome = kick.story.observed->outcome;
+    if (!kick.timeline.observed || !(kick.timeline.distance_m > 0.0)) continue;
+    const std::string& outcome = kick.timeline.observed->outcome;
     if (outcome == "unknown" || outcome.empty() || (apart && outcome == "blocked")) continue;
-    stats::Counts& counts = bands[{distance_bin(kick.story.distance_m), kick.story.policy}];
+    stats::Counts& counts = bands[{distance_bin(kick.timeline.distance_m), kick.timeline.policy}];
     ++counts.n;
     counts.inside += outcome == "on_target" ? 1 : 0;
   }

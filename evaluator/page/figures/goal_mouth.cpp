@@ -51,11 +51,11 @@ std::string metres(const Mouth& mouth) {
   return svg + svg_text(0.5 * kFigureWidth, mouth.floor_px + 37.0, "middle", "to the right of the goal's middle [m]");
 }
 
-std::string crossing(const Mouth& mouth, std::size_t number, const KickTimeline& story) {
-  const TimelineEnd& end = *story.observed;
+std::string crossing(const Mouth& mouth, std::size_t number, const KickTimeline& timeline) {
+  const TimelineEnd& end = *timeline.observed;
   const ChartPoint at{mouth.x.px(std::clamp(*end.x_m, -mouth.x.to, mouth.x.to)),
                       mouth.z.px(std::clamp(*end.z_m, 0.0, mouth.z.to))};
-  const OutcomeKind kind = kind_of(story);
+  const OutcomeKind kind = kind_of(timeline);
   std::string marks;
   if (end.sd_m && *end.sd_m > 0.0 && mouth.shows(*end.x_m, *end.z_m)) {
     marks += svg_circle(std::string("spread ") + kOutcomeNames[static_cast<std::size_t>(kind)].key, at,
@@ -63,8 +63,9 @@ std::string crossing(const Mouth& mouth, std::size_t number, const KickTimeline&
   }
   marks += outcome_mark(kind, at, 4.5);
   const std::string spread = end.sd_m ? fmt::format(" \u00b1 {:.2f}", *end.sd_m) : "";
-  return titled(fmt::format("{}; crossed at {:+.2f} m, {:.2f} m high{}", kick_words(story), *end.x_m, *end.z_m, spread),
-                marks, fmt::format(" data-kick=\"{}\"", number));
+  return titled(
+      fmt::format("{}; crossed at {:+.2f} m, {:.2f} m high{}", kick_words(timeline), *end.x_m, *end.z_m, spread), marks,
+      fmt::format(" data-kick=\"{}\"", number));
 }
 
 }  // namespace
@@ -74,21 +75,21 @@ std::string goal_mouth_section(const PageView& view) {
   OutcomeCounts counts{};
   std::size_t drawn = 0, at_edge = 0, other_goals = 0;
   if (kicks.empty()) return section("mouth", "The goal mouth", paragraphs({"There are no kicks."}));
-  const Mouth mouth(kicks.front().story.goal);
+  const Mouth mouth(kicks.front().timeline.goal);
   HeatMap cells(kCell_m);
   std::string marks;
   for (std::size_t i = 0; i < kicks.size(); ++i) {
-    const KickTimeline& story = kicks[i].story;
-    if (!story.observed || !story.observed->x_m || !story.observed->z_m) continue;
-    const double x_m = *story.observed->x_m, z_m = *story.observed->z_m;
-    ++counts[static_cast<std::size_t>(kind_of(story))];
+    const KickTimeline& timeline = kicks[i].timeline;
+    if (!timeline.observed || !timeline.observed->x_m || !timeline.observed->z_m) continue;
+    const double x_m = *timeline.observed->x_m, z_m = *timeline.observed->z_m;
+    ++counts[static_cast<std::size_t>(kind_of(timeline))];
     ++drawn;
     at_edge += mouth.shows(x_m, z_m) ? 0 : 1;
-    other_goals += story.goal.half_width_m != mouth.goal.half_width_m ? 1 : 0;
+    other_goals += timeline.goal.half_width_m != mouth.goal.half_width_m ? 1 : 0;
     if (view.data.binned()) {
       cells.add(std::clamp(x_m, -mouth.x.to, mouth.x.to - 1e-6), std::clamp(z_m, 0.0, mouth.z.to - 1e-6));
     } else {
-      marks += crossing(mouth, i, story);
+      marks += crossing(mouth, i, timeline);
     }
   }
   if (drawn == 0)

@@ -7,9 +7,9 @@
 
 namespace trivela::evaluator::page {
 
-OutcomeKind kind_of(const KickTimeline& story) {
-  const std::string label = story.observed ? story.observed->outcome : "unknown";
-  if (label == "on_target") return story.saved.value_or(false) ? OutcomeKind::kSaved : OutcomeKind::kInside;
+OutcomeKind kind_of(const KickTimeline& timeline) {
+  const std::string label = timeline.observed ? timeline.observed->outcome : "unknown";
+  if (label == "on_target") return timeline.saved.value_or(false) ? OutcomeKind::kSaved : OutcomeKind::kInside;
   if (label == "post" || label == "bar") return OutcomeKind::kFrame;
   if (label == "blocked") return OutcomeKind::kBlocked;
   if (label == "unknown" || label.empty()) return OutcomeKind::kUnknown;
@@ -53,16 +53,16 @@ std::string outcome_legend(const OutcomeCounts& counts, double y) {
   return svg;
 }
 
-std::string outcome_words(const KickTimeline& story) {
-  if (!story.observed || story.observed->outcome.empty()) return "no outcome";
-  if (story.observed->outcome == "on_target" && story.saved) return *story.saved ? "saved" : "goal";
-  return words(story.observed->outcome);
+std::string outcome_words(const KickTimeline& timeline) {
+  if (!timeline.observed || timeline.observed->outcome.empty()) return "no outcome";
+  if (timeline.observed->outcome == "on_target" && timeline.saved) return *timeline.saved ? "saved" : "goal";
+  return words(timeline.observed->outcome);
 }
 
-std::string kick_words(const KickTimeline& story) {
-  const std::string kind = story.kick_kind > 0 ? fmt::format(", kind {}", story.kick_kind + 1) : "";
-  return fmt::format("kick {}:{}, {}{}, {:.1f} m, {}", story.robot_id, story.number, story.policy, kind,
-                     story.distance_m, outcome_words(story));
+std::string kick_words(const KickTimeline& timeline) {
+  const std::string kind = timeline.kick_kind > 0 ? fmt::format(", kind {}", timeline.kick_kind + 1) : "";
+  return fmt::format("kick {}:{}, {}{}, {:.1f} m, {}", timeline.robot_id, timeline.number, timeline.policy, kind,
+                     timeline.distance_m, outcome_words(timeline));
 }
 
 }  // namespace trivela::evaluator::page

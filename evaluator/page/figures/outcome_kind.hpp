@@ -4,7 +4,7 @@
 #include <string>
 
 #include "evaluator/render/svg_chart.hpp"
-#include "evaluator/story/kick_timeline.hpp"
+#include "evaluator/timeline/kick_timeline.hpp"
 
 namespace trivela::evaluator::page {
 
@@ -23,7 +23,7 @@ inline constexpr std::array<OutcomeName, 6> kOutcomeNames{{{"inside", "on target
                                                            {"unknown", "not known"}}};
 
 /// Of a kick's label; without one it is not known. "outside" and what is no goal by the rules are beside.
-OutcomeKind kind_of(const KickTimeline& story);
+OutcomeKind kind_of(const KickTimeline& timeline);
 
 /// Its mark: a dot, a bar, a square, a diamond, a cross or a ring.
 std::string outcome_mark(OutcomeKind kind, const ChartPoint& at, double size);
@@ -35,9 +35,9 @@ using OutcomeCounts = std::array<std::size_t, kOutcomeNames.size()>;
 std::string outcome_legend(const OutcomeCounts& counts, double y);
 
 /// "wide left" of "wide_left", "goal" or "saved" of one on target where that is known; "no outcome" where none came.
-std::string outcome_words(const KickTimeline& story);
+std::string outcome_words(const KickTimeline& timeline);
 
 /// "kick 1:7, moving, 5.2 m, post": for who points at a mark.
-std::string kick_words(const KickTimeline& story);
+std::string kick_words(const KickTimeline& timeline);
 
 }  // namespace trivela::evaluator::page

@@ -18,7 +18,8 @@ constexpr double kCircle_m = 2.0, kSquare_m = 0.5;
 
 /// The field from above, +y upwards, from `low_m` to behind the goal.
 struct Field {
-  Field(const KickTimeline& story, double from_m) : goal(story.goal), side_m(story.side_line_x_m), low_m(from_m) {
+  Field(const KickTimeline& timeline, double from_m)
+      : goal(timeline.goal), side_m(timeline.side_line_x_m), low_m(from_m) {
     const double half_m = side_m + kBorder_m, top_m = goal.y_m + kGoalDepth_m + 0.2;
     const double px_per_m = (kFigureWidth - 8.0) / (2.0 * half_m);
     bottom_px = 4.0 + (top_m - low_m) * px_per_m;
@@ -76,12 +77,12 @@ std::string held_mark(const Field& field, const HeldChance& chance) {
 }
 
 /// Whether a place is on the field, beside its lines included: a robot that lost itself may believe anything.
-bool on_field(const KickTimeline& story, double x_m, double y_m) {
-  return std::abs(x_m) <= story.side_line_x_m + kBorder_m && std::abs(y_m) <= story.goal.y_m + kGoalDepth_m;
+bool on_field(const KickTimeline& timeline, double x_m, double y_m) {
+  return std::abs(x_m) <= timeline.side_line_x_m + kBorder_m && std::abs(y_m) <= timeline.goal.y_m + kGoalDepth_m;
 }
 
 /// A kick whose place is known: an imported one has none.
-bool has_place(const KickTimeline& story) { return story.distance_m > 0.0; }
+bool has_place(const KickTimeline& timeline) { return timeline.distance_m > 0.0; }
 
 /// What is drawn, and how much of it.
 struct DrawnPlaces {
@@ -103,9 +104,9 @@ DrawnPlaces count_places(const PageData& data, const KickTimeline& any) {
     }
   };
   for (const PageKick& kick : data.kicks) {
-    if (!has_place(kick.story)) continue;
-    see(kick.story.robot.x_m, kick.story.robot.y_m);
-    ++places.kicks[static_cast<std::size_t>(kind_of(kick.story))];
+    if (!has_place(kick.timeline)) continue;
+    see(kick.timeline.robot.x_m, kick.timeline.robot.y_m);
+    ++places.kicks[static_cast<std::size_t>(kind_of(kick.timeline))];
   }
   for (const HeldChance& chance : data.held_chances) {
     see(chance.x_m, chance.y_m);
@@ -121,10 +122,10 @@ std::string each_place(const PageData& data, const Field& field, const KickTimel
     if (on_field(any, chance.x_m, chance.y_m)) marks += held_mark(field, chance);
   }
   for (std::size_t i = 0; i < data.kicks.size(); ++i) {
-    const KickTimeline& story = data.kicks[i].story;
-    const auto& [x_m, y_m, heading_rad] = story.robot;
-    if (!has_place(story) || !on_field(any, x_m, y_m)) continue;
-    marks += titled(kick_words(story), outcome_mark(kind_of(story), {field.x.px(x_m), field.y.px(y_m)}, 4.5),
+    const KickTimeline& timeline = data.kicks[i].timeline;
+    const auto& [x_m, y_m, heading_rad] = timeline.robot;
+    if (!has_place(timeline) || !on_field(any, x_m, y_m)) continue;
+    marks += titled(kick_words(timeline), outcome_mark(kind_of(timeline), {field.x.px(x_m), field.y.px(y_m)}, 4.5),
                     fmt::format(" data-kick=\"{}\"", i));
   }
   return marks;
@@ -136,8 +137,8 @@ std::string binned_places(const PageData& data, const Field& field, const KickTi
     if (on_field(any, chance.x_m, chance.y_m)) held.add(chance.x_m, chance.y_m);
   }
   for (const PageKick& kick : data.kicks) {
-    const auto& [x_m, y_m, heading_rad] = kick.story.robot;
-    if (has_place(kick.story) && on_field(any, x_m, y_m)) kicked.add(x_m, y_m);
+    const auto& [x_m, y_m, heading_rad] = kick.timeline.robot;
+    if (has_place(kick.timeline) && on_field(any, x_m, y_m)) kicked.add(x_m, y_m);
   }
   return held.draw("heat held-heat", field.x, field.y) + kicked.draw("heat", field.x, field.y);
 }
@@ -157,7 +158,7 @@ std::string legend_of(const DrawnPlaces& places, double y) {
 
 std::string pitch_section(const PageView& view) {
   const PageData& data = view.data;
-  const KickTimeline any = data.kicks.empty() ? KickTimeline{} : data.kicks.front().story;
+  const KickTimeline any = data.kicks.empty() ? KickTimeline{} : data.kicks.front().timeline;
   const DrawnPlaces places = count_places(data, any);
   if (places.all_kicks() + places.held == 0)
     return section("pitch", "Where from", paragraphs({"No kick says where it was taken, and no chance was held."}));

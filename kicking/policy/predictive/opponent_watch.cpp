@@ -13,8 +13,8 @@ constexpr double kLeastHeld = 1e-3;
 
 }  // namespace
 
-void OpponentWatch::update(const PredictiveConfig& config, std::int64_t now_ns, bool playing, Maybe observed_m,
-                           Maybe known_closing_mps) {
+void OpponentWatch::update(const PredictiveConfig& config, std::int64_t now_ns, bool playing, OptionalDouble observed_m,
+                           OptionalDouble known_closing_mps) {
   const double dt_s = std::clamp(seconds(now_ns - t_ns), 0.0, 0.2);
   t_ns = now_ns;
   if (observed_m && *observed_m < 0.0) observed_m = std::nullopt;

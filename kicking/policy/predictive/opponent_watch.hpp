@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 #include "kicking/policy/predictive/predictive_config.hpp"
 
 namespace trivela::kicking {
@@ -22,8 +22,8 @@ struct OpponentWatch {
   double covariance_m2ps = 0.0;
 
   /// One cycle. `distance_m`: as observed, none: not seen. `closing_mps`: where both are known exactly.
-  void update(const PredictiveConfig& config, std::int64_t now_ns, bool playing, Maybe observed_m,
-              Maybe known_closing_mps);
+  void update(const PredictiveConfig& config, std::int64_t now_ns, bool playing, OptionalDouble observed_m,
+              OptionalDouble known_closing_mps);
 
   /// Distance expected after t [s].
   double distance_after_m(double t_s) const { return distance_m - closing_mps * t_s; }

@@ -10,7 +10,7 @@
 namespace trivela::bus {
 
 /// By when a loop comes round or a reaction ends; for any thread, without a lock.
-class Turn {
+class Deadline {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
@@ -32,11 +32,11 @@ class Turn {
 };
 
 /// Who wants to know that an executor turns, e.g. for a watchdog.
-struct Pulse {
+struct WatchdogHook {
   /// Told by run()'s thread once all readers and threads are there and then about each 100 ms: an empty name, or that
   /// of a device, timer or reaction which is late. Where that thread itself hangs it is told nothing. None: nobody
   /// asks.
-  std::function<void(const std::string& late)> beat;
+  std::function<void(const std::string& late)> notify;
   /// How long a reaction may take, and a device or timer may come too late.
   std::chrono::nanoseconds timeout = std::chrono::seconds{1};
 };

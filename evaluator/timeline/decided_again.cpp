@@ -1,4 +1,4 @@
-#include "evaluator/story/decided_again.hpp"
+#include "evaluator/timeline/decided_again.hpp"
 
 #include <fmt/format.h>
 

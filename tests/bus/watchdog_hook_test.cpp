@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kTimeout{50};
 
-TEST(Turn, IsLateOnceItsPatienceIsOver) {
-  Turn turn;
-  const Turn::Time now{std::chrono::hours{1}};
+TEST(Deadline, IsLateOnceItsPatienceIsOver) {
+  Deadline turn;
+  const Deadline::Time now{std::chrono::hours{1}};
   EXPECT_FALSE(turn.late(now, kTimeout)) << "nothing is due";
   turn.due(now);
   EXPECT_FALSE(turn.late(now + kTimeout, kTimeout));
@@ -47,13 +47,13 @@ class Hang {
 struct PulseTest : testing::TestWithParam<Executor::Kind> {
   void run(const std::string& hung) {
     std::vector<std::string> said;
-    const auto beat = [&](const std::string& late) {
+    const auto notify = [&](const std::string& late) {
       beating = true;
       if (said.empty() || said.back() != late) said.push_back(late);
       if (!late.empty()) hang.release();
       if (late.empty() && std::ranges::find(said, hung) != said.end()) stop.request();
     };
-    Executor{GetParam(), stop, {&node}, {.beat = beat, .timeout = kTimeout}}.run();
+    Executor{GetParam(), stop, {&node}, {.notify = notify, .timeout = kTimeout}}.run();
     EXPECT_THAT(said, testing::Contains(hung));
     EXPECT_EQ(said.back(), "");
   }
@@ -100,11 +100,11 @@ TEST_P(PulseTest, WhatHasNothingToDoIsNotLate) {
   node.on<msg::Referee>([](const msg::Referee&) {});
   node.every(std::chrono::hours{1}, "clock", [] {});
   int beats = 0;
-  const auto beat = [&](const std::string& late) {
+  const auto notify = [&](const std::string& late) {
     EXPECT_EQ(late, "");
     if (++beats == 3) stop.request();
   };
-  Executor{GetParam(), stop, {&node}, {.beat = beat, .timeout = kTimeout}}.run();
+  Executor{GetParam(), stop, {&node}, {.notify = notify, .timeout = kTimeout}}.run();
   EXPECT_EQ(beats, 3);
 }
 

@@ -1,4 +1,4 @@
-#include "cli/launch/person.hpp"
+#include "cli/launch/operator.hpp"
 
 #include <fmt/core.h>
 #include <poll.h>
@@ -12,9 +12,9 @@
 
 namespace trivela::cli {
 
-bool Person::is_there() { return ::isatty(STDIN_FILENO) != 0; }
+bool Operator::is_there() { return ::isatty(STDIN_FILENO) != 0; }
 
-std::optional<std::string> Person::ask(std::string_view question) {
+std::optional<std::string> Operator::ask(std::string_view question) {
   ::tcflush(STDIN_FILENO, TCIFLUSH);
   say(question);
   std::fflush(stdout);
@@ -31,7 +31,7 @@ std::optional<std::string> Person::ask(std::string_view question) {
   }
 }
 
-bool Person::confirms(std::string_view word) {
+bool Operator::confirms(std::string_view word) {
   const auto answer = ask(fmt::format("Type {} and press Enter to go on: ", word));
   return answer && *answer == word;
 }

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "evaluator/render/json_values.hpp"
-#include "evaluator/story/kick_timeline.hpp"
+#include "evaluator/timeline/kick_timeline.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -57,39 +57,39 @@ void put_end(Json& json, const char* key, const std::optional<TimelineEnd>& end)
 
 }  // namespace
 
-Json json_of(const KickTimeline& story) {
-  Json json{{"kick", fmt::format("{}:{}", story.robot_id, story.number)},
-            {"kick_id", fmt::format("{}", story.kick_id)},
-            {"session_id", fmt::format("{}", story.session_id)},
-            {"robot", story.robot_id},
-            {"policy", story.policy},
-            {"half", story.half},
-            {"utc_ms", ms(story.utc_ns)}};
-  if (story.kick_kind != 0) json["kick_kind"] = story.kick_kind;
-  put(json, "half_time_ms", story.half_time_s, 1000.0);
-  json["distance_cm"] = cm(story.distance_m);
-  if (story.power) json["power"] = static_cast<double>(whole(100.0 * *story.power)) / 100.0;
-  json["pitch"] = {{"goal_y_cm", cm(story.goal.y_m)},
-                   {"goal_half_width_cm", cm(story.goal.half_width_m)},
-                   {"goal_height_cm", cm(story.goal.height_m)},
-                   {"post_cm", cm(story.goal.post_width_m)},
-                   {"side_line_x_cm", cm(story.side_line_x_m)}};
-  const DecidedSegments& segments = story.segments;
+Json json_of(const KickTimeline& timeline) {
+  Json json{{"kick", fmt::format("{}:{}", timeline.robot_id, timeline.number)},
+            {"kick_id", fmt::format("{}", timeline.kick_id)},
+            {"session_id", fmt::format("{}", timeline.session_id)},
+            {"robot", timeline.robot_id},
+            {"policy", timeline.policy},
+            {"half", timeline.half},
+            {"utc_ms", ms(timeline.utc_ns)}};
+  if (timeline.kick_kind != 0) json["kick_kind"] = timeline.kick_kind;
+  put(json, "half_time_ms", timeline.half_time_s, 1000.0);
+  json["distance_cm"] = cm(timeline.distance_m);
+  if (timeline.power) json["power"] = static_cast<double>(whole(100.0 * *timeline.power)) / 100.0;
+  json["pitch"] = {{"goal_y_cm", cm(timeline.goal.y_m)},
+                   {"goal_half_width_cm", cm(timeline.goal.half_width_m)},
+                   {"goal_height_cm", cm(timeline.goal.height_m)},
+                   {"post_cm", cm(timeline.goal.post_width_m)},
+                   {"side_line_x_cm", cm(timeline.side_line_x_m)}};
+  const DecidedSegments& segments = timeline.segments;
   json["segments"] = {{"s1_cm", pair_of(segments.s1_from_m, segments.s1_to_m)},
                       {"s2_cm", pair_of(segments.s2_left_m, segments.s2_right_m)},
                       {"aligned", segments.aligned}};
-  put(json, "fired_ms", story.fired_after_s, 1000.0);
-  put(json, "released_ms", story.released_after_s, 1000.0);
-  put_end(json, "predicted", story.predicted);
-  put_end(json, "observed", story.observed);
-  if (story.observed && story.saved) json["observed"]["saved"] = *story.saved;
-  put_end(json, "truth", story.truth);
-  put_path(json, story.path);
-  put_places(json, "ball", story.ball, false);
-  put_places(json, "flight", story.flight, true);
-  put_places(json, "opponent", story.opponent, false);
-  for (const Eigen::Vector2d& at : story.others) json["others_cm"].push_back({cm(at.x()), cm(at.y())});
-  put(json, "keeper_x_cm", story.keeper_x_m, 100.0);
+  put(json, "fired_ms", timeline.fired_after_s, 1000.0);
+  put(json, "released_ms", timeline.released_after_s, 1000.0);
+  put_end(json, "predicted", timeline.predicted);
+  put_end(json, "observed", timeline.observed);
+  if (timeline.observed && timeline.saved) json["observed"]["saved"] = *timeline.saved;
+  put_end(json, "truth", timeline.truth);
+  put_path(json, timeline.path);
+  put_places(json, "ball", timeline.ball, false);
+  put_places(json, "flight", timeline.flight, true);
+  put_places(json, "opponent", timeline.opponent, false);
+  for (const Eigen::Vector2d& at : timeline.others) json["others_cm"].push_back({cm(at.x()), cm(at.y())});
+  put(json, "keeper_x_cm", timeline.keeper_x_m, 100.0);
   return json;
 }
 

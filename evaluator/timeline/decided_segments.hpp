@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "kicking/geometry/frames.hpp"
-#include "kicking/maybe.hpp"
+#include "kicking/optional_double.hpp"
 
 namespace trivela::evaluator {
 
@@ -14,7 +14,7 @@ struct DecidedAlignment {
   Eigen::Vector2d target_m{};
   double distance_m = 0.0;
   bool aligned = false;
-  kicking::Maybe offset_right_m;
+  kicking::OptionalDouble offset_right_m;
   double left_m = 0.0;
   double right_m = 0.0;
 };

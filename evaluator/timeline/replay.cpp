@@ -1,7 +1,7 @@
-#include "evaluator/story/replay.hpp"
+#include "evaluator/timeline/replay.hpp"
 
-#include "evaluator/story/replay.css.hpp"
-#include "evaluator/story/replay.js.hpp"
+#include "evaluator/timeline/replay.css.hpp"
+#include "evaluator/timeline/replay.js.hpp"
 
 namespace trivela::evaluator {
 

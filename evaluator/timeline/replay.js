@@ -1,4 +1,4 @@
-// replay(container, story): draws the story of a kick (evaluator/story/kick_timeline.hpp) from above and from the side and
+// replay(container, timeline): draws the timeline of a kick (evaluator/timeline/kick_timeline.hpp) from above and from the side and
 // plays it. Returns {pause(), show(t_ms), remove()}. Places in centimetres of F, instants in milliseconds after the decision.
 const replay = (() => {
   'use strict';
@@ -54,16 +54,16 @@ const replay = (() => {
   }
 
   // The flight camera's word once the ball is away, before it the robot's belief.
-  function ballAt(story, t_ms) {
-    return (t_ms >= (story.released_ms ?? 0) && at(story.flight, t_ms)) || at(story.ball, t_ms);
+  function ballAt(timeline, t_ms) {
+    return (t_ms >= (timeline.released_ms ?? 0) && at(timeline.flight, t_ms)) || at(timeline.ball, t_ms);
   }
 
-  function span(story) {
-    const instants = [0, story.released_ms ?? 0];
-    for (const track of [story.path, story.ball, story.flight, story.opponent]) {
+  function span(timeline) {
+    const instants = [0, timeline.released_ms ?? 0];
+    for (const track of [timeline.path, timeline.ball, timeline.flight, timeline.opponent]) {
       if (track) instants.push(track.t_ms[0], track.t_ms[track.t_ms.length - 1]);
     }
-    if (story.observed && story.observed.t_ms !== undefined) instants.push(story.observed.t_ms);
+    if (timeline.observed && timeline.observed.t_ms !== undefined) instants.push(timeline.observed.t_ms);
     return [Math.min(...instants), Math.max(...instants)];
   }
 
@@ -79,12 +79,12 @@ const replay = (() => {
 
   // --- from above: x to the right, y upwards
 
-  function box(story) {
-    const {pitch, segments} = story;
+  function box(timeline) {
+    const {pitch, segments} = timeline;
     const xs = [-pitch.goal_half_width_cm - 100, pitch.goal_half_width_cm + 100, segments.s2_cm[0], segments.s2_cm[2]];
     const ys = [pitch.goal_y_cm + kGoalDepth_cm + 40, segments.s1_cm[1] - 120];
     const reach = 100 + pitch.side_line_x_cm;
-    for (const track of [story.path, story.ball, story.flight]) {
+    for (const track of [timeline.path, timeline.ball, timeline.flight]) {
       if (!track) continue;
       xs.push(...track.x_cm.filter((x) => Math.abs(x) < reach));
       ys.push(...track.y_cm.filter((y) => Math.abs(y) < Math.abs(pitch.goal_y_cm) + 150));
@@ -98,8 +98,8 @@ const replay = (() => {
     return [left, -high, right - left, high - low];
   }
 
-  function lines(story) {
-    const {goal_y_cm: y, goal_half_width_cm: w, side_line_x_cm: side, post_cm: post} = story.pitch;
+  function lines(timeline) {
+    const {goal_y_cm: y, goal_half_width_cm: w, side_line_x_cm: side, post_cm: post} = timeline.pitch;
     const out = y < 0 ? -1 : 1;
     const area = (depth) => `M${-w - depth} ${-y}V${-(y - out * depth)}H${w + depth}V${-y}`;
     return [
@@ -117,10 +117,10 @@ const replay = (() => {
       `${2 * size}`});
   }
 
-  function above(story) {
-    const [s1x, s1y, s1u, s1v] = story.segments.s1_cm;
-    const [s2x, s2y, s2u, s2v] = story.segments.s2_cm;
-    const goal = story.pitch.goal_y_cm;
+  function above(timeline) {
+    const [s1x, s1y, s1u, s1v] = timeline.segments.s1_cm;
+    const [s2x, s2y, s2u, s2v] = timeline.segments.s2_cm;
+    const goal = timeline.pitch.goal_y_cm;
     const parts = {
       trail: mark('path', {class: 'trail robot-trail', d: ''}),
       ballTrail: mark('path', {class: 'trail ball-trail', d: ''}),
@@ -128,39 +128,39 @@ const replay = (() => {
         mark('line', {class: 's1', x1: s1x, y1: -s1y, x2: s1u, y2: -s1v}),
         mark('line', {class: 's2', x1: s2x, y1: -s2y, x2: s2u, y2: -s2v})),
       robot: mark('g', {class: 'robot'}, mark('circle', {r: kRobot_cm}), mark('path', {d: `M0 0V${-kRobot_cm}`})),
-      others: mark('g', {class: 'other'}, ...(story.others_cm ?? []).map(([x, y]) => mark('circle', {cx: x, cy: -y, r: kRobot_cm}))),
-      keeper: story.keeper_x_cm === undefined ? null : mark('rect', {class: 'other', x: story.keeper_x_cm - kRobot_cm,
+      others: mark('g', {class: 'other'}, ...(timeline.others_cm ?? []).map(([x, y]) => mark('circle', {cx: x, cy: -y, r: kRobot_cm}))),
+      keeper: timeline.keeper_x_cm === undefined ? null : mark('rect', {class: 'other', x: timeline.keeper_x_cm - kRobot_cm,
         y: -goal - kRobot_cm, width: 2 * kRobot_cm, height: 2 * kRobot_cm}),
       opponent: mark('g', {class: 'opponent'}, mark('circle', {r: kRobot_cm})),
       ball: mark('g', {class: 'ball'}, mark('circle', {r: kBall_cm})),
-      predicted: story.predicted && story.predicted.x_cm !== undefined ? cross(story.predicted.x_cm, -goal, 14) : null,
-      observed: story.observed && story.observed.x_cm !== undefined
-        ? mark('circle', {class: 'observed', cx: story.observed.x_cm, cy: -goal, r: 16}) : null};
-    const picture = mark('svg', {class: 'replay-above', viewBox: box(story).join(' '), role: 'img',
-      'aria-label': `Kick ${story.kick} from above`});
-    picture.append(...lines(story), ...Object.values(parts).filter((shown) => shown));
+      predicted: timeline.predicted && timeline.predicted.x_cm !== undefined ? cross(timeline.predicted.x_cm, -goal, 14) : null,
+      observed: timeline.observed && timeline.observed.x_cm !== undefined
+        ? mark('circle', {class: 'observed', cx: timeline.observed.x_cm, cy: -goal, r: 16}) : null};
+    const picture = mark('svg', {class: 'replay-above', viewBox: box(timeline).join(' '), role: 'img',
+      'aria-label': `Kick ${timeline.kick} from above`});
+    picture.append(...lines(timeline), ...Object.values(parts).filter((shown) => shown));
     return {picture, parts};
   }
 
   // --- from the side: y to the right, z upwards
 
-  function side(story) {
-    const {goal_y_cm: goal, goal_height_cm: bar, post_cm: post} = story.pitch;
-    const ys = story.flight ? story.flight.y_cm : [];
-    const zs = story.flight ? story.flight.z_cm : [];
-    const heights = [story.predicted, story.observed].filter((end) => end && end.z_cm !== undefined).map((end) => end.z_cm);
+  function side(timeline) {
+    const {goal_y_cm: goal, goal_height_cm: bar, post_cm: post} = timeline.pitch;
+    const ys = timeline.flight ? timeline.flight.y_cm : [];
+    const zs = timeline.flight ? timeline.flight.z_cm : [];
+    const heights = [timeline.predicted, timeline.observed].filter((end) => end && end.z_cm !== undefined).map((end) => end.z_cm);
     if (zs.length === 0 && heights.length === 0) return null;
-    const from = Math.min(story.segments.s1_cm[1], ...ys) - 60;
+    const from = Math.min(timeline.segments.s1_cm[1], ...ys) - 60;
     const to = Math.max(goal + 60, Math.min(goal + 150, Math.max(goal, ...ys)));
     const top = Math.max(bar + post + 30, ...zs, ...heights) + 30;
     const parts = {
       ballTrail: mark('path', {class: 'trail ball-trail', d: ''}),
       ball: mark('g', {class: 'ball'}, mark('circle', {r: kBall_cm})),
-      predicted: story.predicted && story.predicted.z_cm !== undefined ? cross(goal, -story.predicted.z_cm, 12) : null,
-      observed: story.observed && story.observed.z_cm !== undefined
-        ? mark('circle', {class: 'observed', cx: goal, cy: -story.observed.z_cm, r: 14}) : null};
+      predicted: timeline.predicted && timeline.predicted.z_cm !== undefined ? cross(goal, -timeline.predicted.z_cm, 12) : null,
+      observed: timeline.observed && timeline.observed.z_cm !== undefined
+        ? mark('circle', {class: 'observed', cx: goal, cy: -timeline.observed.z_cm, r: 14}) : null};
     const picture = mark('svg', {class: 'replay-side', viewBox: `${from} ${-top} ${to - from} ${top + 14}`, role: 'img',
-      'aria-label': `Kick ${story.kick} from the side, with the bar of the goal`});
+      'aria-label': `Kick ${timeline.kick} from the side, with the bar of the goal`});
     picture.append(
       mark('path', {class: 'line', d: `M${from} 0H${to}`}),
       mark('path', {class: 'goal', d: `M${goal} 0V${-bar}`}),
@@ -173,11 +173,11 @@ const replay = (() => {
 
   const seconds = (t_ms) => `${t_ms < 0 ? '\u2212' : '+'}${(Math.abs(t_ms) / 1000).toFixed(2)} s`;
 
-  function moment(story, t_ms) {
-    const seen = story.observed;
+  function moment(timeline, t_ms) {
+    const seen = timeline.observed;
     if (seen && t_ms >= (seen.t_ms ?? Infinity))
       return seen.saved === undefined ? seen.outcome.replaceAll('_', ' ') : seen.saved ? 'saved' : 'goal';
-    if (t_ms >= (story.released_ms ?? Infinity)) return 'ball away';
+    if (t_ms >= (timeline.released_ms ?? Infinity)) return 'ball away';
     return t_ms >= 0 ? 'decided' : 'before the decision';
   }
 
@@ -189,28 +189,28 @@ const replay = (() => {
     group.setAttribute('transform', `translate(${upwards ? place.y : place.x} ${-(upwards ? place.z : place.y)})${turned}`);
   }
 
-  function draw(story, views, t_ms) {
-    const ball = ballAt(story, t_ms);
-    const released = story.released_ms ?? 0;
+  function draw(timeline, views, t_ms) {
+    const ball = ballAt(timeline, t_ms);
+    const released = timeline.released_ms ?? 0;
     const {parts} = views.above;
-    put(parts.robot, at(story.path, t_ms));
-    put(parts.opponent, at(story.opponent, t_ms));
+    put(parts.robot, at(timeline.path, t_ms));
+    put(parts.opponent, at(timeline.opponent, t_ms));
     put(parts.ball, ball);
-    parts.trail.setAttribute('d', story.path ? path(story.path, t_ms) : '');
-    parts.ballTrail.setAttribute('d', story.flight ? path(story.flight, t_ms) : '');
+    parts.trail.setAttribute('d', timeline.path ? path(timeline.path, t_ms) : '');
+    parts.ballTrail.setAttribute('d', timeline.flight ? path(timeline.flight, t_ms) : '');
     parts.segments.setAttribute('class', t_ms >= 0 ? 'segments decided' : 'segments');
     if (views.side) {
       put(views.side.parts.ball, ball && t_ms >= released ? ball : null, true);
-      views.side.parts.ballTrail.setAttribute('d', story.flight ? path(story.flight, t_ms, true) : '');
+      views.side.parts.ballTrail.setAttribute('d', timeline.flight ? path(timeline.flight, t_ms, true) : '');
     }
   }
 
-  function legend(story) {
-    const entries = [['robot', 'robot', story.path], ['ball', 'ball', story.ball || story.flight],
-      ['opponent', 'nearest opponent', story.opponent], ['other', 'opponents at the decision (the keeper square)', story.others_cm || story.keeper_x_cm !== undefined],
+  function legend(timeline) {
+    const entries = [['robot', 'robot', timeline.path], ['ball', 'ball', timeline.ball || timeline.flight],
+      ['opponent', 'nearest opponent', timeline.opponent], ['other', 'opponents at the decision (the keeper square)', timeline.others_cm || timeline.keeper_x_cm !== undefined],
       ['s1', 'segment 1: along the kick', true],
-      ['s2', 'segment 2: the target', true], ['predicted', 'predicted crossing', story.predicted],
-      ['observed', 'observed crossing', story.observed && story.observed.x_cm !== undefined]];
+      ['s2', 'segment 2: the target', true], ['predicted', 'predicted crossing', timeline.predicted],
+      ['observed', 'observed crossing', timeline.observed && timeline.observed.x_cm !== undefined]];
     const list = part('ul', '', {class: 'replay-legend'});
     for (const [kind, words, there] of entries) {
       if (!there) continue;
@@ -218,7 +218,7 @@ const replay = (() => {
       entry.append(part('i', '', {class: kind, 'aria-hidden': 'true'}), words);
       list.append(entry);
     }
-    const missing = [[story.path, 'the robot\u2019s path'], [story.flight, 'the ball in flight'], [story.opponent, 'an opponent']]
+    const missing = [[timeline.path, 'the robot\u2019s path'], [timeline.flight, 'the ball in flight'], [timeline.opponent, 'an opponent']]
       .filter(([track]) => !track).map(([, words]) => words);
     if (missing.length) list.append(part('li', `not in the log: ${missing.join(', ')}`, {class: 'missing'}));
     return list;
@@ -237,12 +237,12 @@ const replay = (() => {
     return {row, play, slider, speed, place};
   }
 
-  return function replay(container, story) {
-    const [from, to] = span(story);
-    const root = part('div', '', {class: 'replay', role: 'group', 'aria-label': `Replay of kick ${story.kick}`});
-    const views = {above: above(story), side: side(story)};
+  return function replay(container, timeline) {
+    const [from, to] = span(timeline);
+    const root = part('div', '', {class: 'replay', role: 'group', 'aria-label': `Replay of kick ${timeline.kick}`});
+    const views = {above: above(timeline), side: side(timeline)};
     const hands = controls(from, to);
-    root.append(views.above.picture, ...(views.side ? [views.side.picture] : []), hands.row, legend(story));
+    root.append(views.above.picture, ...(views.side ? [views.side.picture] : []), hands.row, legend(timeline));
     container.replaceChildren(root);
 
     let now_ms = 0;
@@ -253,9 +253,9 @@ const replay = (() => {
 
     function show(t_ms) {
       now_ms = Math.min(Math.max(t_ms, from), to);
-      draw(story, views, now_ms);
+      draw(timeline, views, now_ms);
       hands.slider.value = now_ms;
-      const words = `${seconds(now_ms)} ${moment(story, now_ms)}`;
+      const words = `${seconds(now_ms)} ${moment(timeline, now_ms)}`;
       hands.place.textContent = words;
       hands.slider.setAttribute('aria-valuetext', words);
       root.dataset.t_ms = Math.round(now_ms);

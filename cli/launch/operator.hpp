@@ -9,10 +9,10 @@
 namespace trivela::cli {
 
 /// Whoever sits at the terminal: reads what this program says on standard output, types on standard input.
-class Person {
+class Operator {
  public:
   /// `signals` outlives it.
-  explicit Person(SignalInbox& signals) : signals_(signals) {}
+  explicit Operator(SignalInbox& signals) : signals_(signals) {}
 
   /// Standard input is a terminal: somebody can answer.
   static bool is_there();

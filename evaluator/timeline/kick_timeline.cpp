@@ -1,4 +1,4 @@
-#include "evaluator/story/kick_timeline.hpp"
+#include "evaluator/timeline/kick_timeline.hpp"
 
 #include <fmt/format.h>
 

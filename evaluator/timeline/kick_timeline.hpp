@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/story/decided_segments.hpp"
+#include "evaluator/timeline/decided_segments.hpp"
 #include "kicking/geometry/frames.hpp"
 #include "kicking/geometry/goal.hpp"
 #include "log/read/reader.hpp"
@@ -72,18 +72,18 @@ std::vector<KickTimeline> kicks_without_tracks(const log::Reader& reader);
 
 /// Adds the time of the half, by the referee's last word before the decision. Throws std::runtime_error where the log
 /// cannot be read.
-void add_half_time(const log::Reader& reader, KickTimeline& story);
+void add_half_time(const log::Reader& reader, KickTimeline& timeline);
 
 /// Adds the tracks, and the time of the half. Throws std::runtime_error where the log cannot be read.
-void add_tracks(const log::Reader& reader, KickTimeline& story);
+void add_tracks(const log::Reader& reader, KickTimeline& timeline);
 
-/// The stories of the log's kicks that count, in the order of their time; refused orders are none. Throws
+/// The timelines of the log's kicks that count, in the order of their time; refused orders are none. Throws
 /// std::runtime_error where the log cannot be read.
 std::vector<KickTimeline> kick_timelines(const log::Reader& reader);
 
-/// For replay() of evaluator/story/replay.js: whole centimetres, milliseconds after the decision and
+/// For replay() of evaluator/timeline/replay.js: whole centimetres, milliseconds after the decision and
 /// milliradians; kick_id and session_id as texts, since JavaScript's numbers do not hold them; nothing for what is
 /// empty. `json.dump()` is the same text for the same log.
-nlohmann::ordered_json json_of(const KickTimeline& story);
+nlohmann::ordered_json json_of(const KickTimeline& timeline);
 
 }  // namespace trivela::evaluator

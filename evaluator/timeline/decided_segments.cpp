@@ -1,4 +1,4 @@
-#include "evaluator/story/decided_segments.hpp"
+#include "evaluator/timeline/decided_segments.hpp"
 
 #include <cmath>
 
