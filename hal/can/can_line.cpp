@@ -1,5 +1,6 @@
 #include "hal/can/can_line.hpp"
 
+#include <fmt/core.h>
 #include <linux/can.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
@@ -7,8 +8,10 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <functional>
 
 #include "hal/line/descriptor.hpp"
 
@@ -17,25 +20,40 @@ namespace {
 
 class CanLine final : public Line {
  public:
-  explicit CanLine(const std::string& name) : name_(name) {}
+  CanLine(const std::string& name, const std::string& host) : name_(name), host_(host) {}
 
   Opening open(Deadline) override {
     const bool emulated = name_.find('/') != std::string::npos;
-    if (emulated ? open_socket() : open_interface()) return Opening::kOpen;
-    why_ = system_error(errno);
-    fd_.reset();
+    const bool ours = become_host();
+    if (ours && (emulated ? open_socket() : open_interface())) return Opening::kOpen;
+    why_ = !ours && errno == EADDRINUSE ? kTaken : system_error(errno);
+    close();
     return Opening::kFailed;
   }
   std::optional<std::size_t> read(std::span<char> bytes, Deadline deadline) override {
     return fd_.read(bytes, deadline, why_);
   }
   bool write(std::string_view bytes, Deadline deadline) override { return fd_.write(bytes, deadline, why_); }
-  void close() noexcept override { fd_.reset(); }
+  void close() noexcept override {
+    fd_.reset();
+    lock_.reset();
+  }
   int descriptor() const override { return fd_.get(); }
   const std::string& name() const override { return name_; }
   const std::string& why() const override { return why_; }
 
  private:
+  /// Binds a name that the kernel gives once, and takes back when this process ends, however it does.
+  bool become_host() {
+    if (host_.empty()) return true;
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    const std::string text = fmt::format("trivela {} {:016x}", host_, std::hash<std::string>{}(name_));
+    std::memcpy(address.sun_path + 1, text.data(), std::min(text.size(), sizeof address.sun_path - 1));
+    lock_.reset(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    return lock_ && ::bind(lock_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  }
+
   bool open_interface() {
     fd_.reset(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
     if (!fd_) return false;
@@ -61,12 +79,16 @@ class CanLine final : public Line {
   }
 
   std::string name_;
+  std::string host_;
   std::string why_;
   Descriptor fd_;
+  Descriptor lock_;
 };
 
 }  // namespace
 
-std::unique_ptr<Line> can_line(const std::string& name) { return std::make_unique<CanLine>(name); }
+std::unique_ptr<Line> can_line(const std::string& name, const std::string& host) {
+  return std::make_unique<CanLine>(name, host);
+}
 
 }  // namespace trivela::hal::can

@@ -215,7 +215,8 @@ namespace trivela::config {
 
 std::unique_ptr<hal::Wheels> wheels_of(const Cia402Device& drives, const Hal&, const hal::Owner& owner,
                                        hal::WheelsUse use) {
-  return std::make_unique<hal::cia402::Cia402Wheels>(hal::can::can_line(drives.port), drives, owner.base, use);
+  return std::make_unique<hal::cia402::Cia402Wheels>(
+      hal::can::can_line(drives.port, use == hal::WheelsUse::kDrive ? "drives" : ""), drives, owner.base, use);
 }
 
 }  // namespace trivela::config

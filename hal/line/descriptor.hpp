@@ -13,6 +13,9 @@ namespace trivela::hal {
 /// "no such file or directory" of an errno.
 std::string system_error(int error);
 
+/// Why a line does not open whose device has a host already.
+inline constexpr const char* kTaken = "another program has it";
+
 /// Owns a non-blocking file descriptor, of a terminal or a socket, or none (-1).
 class Descriptor {
  public:

@@ -51,7 +51,7 @@ class Line {
 };
 
 /// The serial device at `path`, raw, 8 bits, no parity, no flow control, 115200 baud where it has a speed (a USB
-/// scanner has none).
+/// scanner has none). While it is open no other serial_line() opens the device, in any program (flock).
 std::unique_ptr<Line> serial_line(const std::string& path);
 
 /// A TCP connection; `host` is a name or an address.

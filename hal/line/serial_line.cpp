@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <sys/file.h>
 #include <termios.h>
 
 #include <cerrno>
@@ -15,8 +16,9 @@ class SerialLine final : public Line {
 
   Opening open(Deadline) override {
     fd_.reset(::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-    if (fd_ && make_raw()) return Opening::kOpen;
-    why_ = system_error(errno);
+    const bool ours = fd_ && ::flock(fd_.get(), LOCK_EX | LOCK_NB) == 0;
+    if (ours && make_raw()) return Opening::kOpen;
+    why_ = !ours && errno == EWOULDBLOCK ? kTaken : system_error(errno);
     fd_.reset();
     return Opening::kFailed;
   }

@@ -172,7 +172,7 @@ namespace trivela::config {
 
 std::unique_ptr<hal::Kicker> kicker_of(const ReKickDevice& board, const Hal&, const hal::Owner&) {
   return std::make_unique<hal::BoardKicker>(
-      std::make_unique<hal::rekick::ReKick>(hal::can::can_line(board.port), board));
+      std::make_unique<hal::rekick::ReKick>(hal::can::can_line(board.port, "kicker"), board));
 }
 
 }  // namespace trivela::config

@@ -84,7 +84,7 @@ class ReKickOnALine {
  public:
   std::unique_ptr<hal::Kicker> open() {
     const config::ReKickDevice settings{.port = emulator.address(), .pulse_us_per_power = kScale_us};
-    return kicker_on(std::make_unique<hal::rekick::ReKick>(hal::can::can_line(settings.port), settings));
+    return kicker_on(std::make_unique<hal::rekick::ReKick>(hal::can::can_line(settings.port, "kicker"), settings));
   }
   void be_well(bool well) {
     emulator.with_board([=](auto& board) { board.supply_on = well; });

@@ -239,6 +239,25 @@ TYPED_TEST(KickerContract, NothingIsEnergisedOnceItIsSafe) {
   EXPECT_TRUE(kicker.read(kPlenty));  // it still speaks
 }
 
+template <class Board>
+class BoardHost : public testing::Test {};
+using Boards = testing::Types<tests::IoBoardOnALine, tests::ReKickOnALine>;
+TYPED_TEST_SUITE(BoardHost, Boards);
+
+TYPED_TEST(BoardHost, ASecondOneIsRefusedUntilTheFirstIsGone) {
+  TypeParam board;
+  auto first = board.open();
+  ASSERT_TRUE(first->connected(kPlenty)) << first->status();
+  const auto second = board.open();
+  ASSERT_TRUE(tests::until_status_says(*second, "another program has it")) << second->status();
+  second->fire({11, 22.5, 5});
+  tests::wait_for_looks(board.emulator, 5, tests::steady_ns());
+  board.emulator.with_board([](const auto& emulated) { EXPECT_TRUE(emulated.pulses().empty()); });
+  EXPECT_TRUE(first->connected(kPlenty)) << first->status();
+  first.reset();
+  EXPECT_TRUE(second->connected(kPlenty)) << second->status();
+}
+
 TEST(BusKicker, DestructionEnergisesNothing) {
   BusRig rig;
   rig.device.reset();
