@@ -5,6 +5,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <array>
 #include <cassert>
 #include <cerrno>
 #include <cstdint>
@@ -17,7 +18,8 @@ namespace {
 
 std::atomic<Stop*> g_stop = nullptr;
 std::atomic<unsigned> g_limit_s = 0;
-struct sigaction g_old_term, g_old_int;
+constexpr std::array kSignals{SIGTERM, SIGINT, SIGHUP};
+std::array<struct sigaction, kSignals.size()> g_before;
 static_assert(std::atomic<Stop*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 static_assert(std::atomic<unsigned>::is_always_lock_free);
 
@@ -71,14 +73,16 @@ StopOnSignals::StopOnSignals(Stop& stop, std::chrono::seconds limit) {
   struct sigaction action {};
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGTERM, &action, &g_old_term);
-  sigaction(SIGINT, &action, &g_old_int);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], &action, &g_before[i]);
+    const bool of_nohup = kSignals[i] == SIGHUP && g_before[i].sa_handler == SIG_IGN;
+    if (of_nohup) sigaction(kSignals[i], &g_before[i], nullptr);
+  }
 }
 
 StopOnSignals::~StopOnSignals() {
   alarm(0);
-  sigaction(SIGTERM, &g_old_term, nullptr);
-  sigaction(SIGINT, &g_old_int, nullptr);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &g_before[i], nullptr);
   g_stop.store(nullptr);
 }
 

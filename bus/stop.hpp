@@ -31,8 +31,9 @@ class Stop {
   std::atomic<bool> requested_ = false;
 };
 
-/// While it lives, SIGTERM and SIGINT request the stop. A process that still runs `limit` after that hangs, e.g. in a
-/// policy of a team's own: SIGALRM ends it. One at a time in a process; restores what was there before.
+/// While it lives, SIGTERM, SIGINT and SIGHUP (the terminal is gone; not under nohup) request the stop. A process that
+/// still runs `limit` after that hangs, e.g. in a policy of a team's own: SIGALRM ends it. One at a time in a process;
+/// restores what was there before.
 class StopOnSignals {
  public:
   explicit StopOnSignals(Stop& stop, std::chrono::seconds limit = std::chrono::seconds{60});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -137,6 +138,7 @@ bool is_written() {
 
 int run_program(const ProgramInfo& program, int argc, char** argv) {
   nodes::secure_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // at a limit of `ulimit -f` a write fails, as on a full disk
   ProgressBar bar;
   log::watch_verification([&](const std::string& file, std::int64_t rows, std::int64_t all) {
     bar.show(static_cast<double>(rows), static_cast<double>(all), "rows", "verified of " + file);

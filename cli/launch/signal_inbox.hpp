@@ -10,14 +10,14 @@
 
 namespace trivela::cli {
 
-/// SIGINT, SIGTERM and SIGCHLD as something to poll; they do not interrupt anything else while it lives.
+/// SIGINT, SIGTERM, SIGHUP and SIGCHLD as something to poll; they do not interrupt anything else while it lives.
 class SignalInbox {
  public:
   /// Throws std::system_error where no file descriptor is free.
   SignalInbox() {
     sigset_t ours;
     sigemptyset(&ours);
-    for (const int signal : {SIGINT, SIGTERM, SIGCHLD}) sigaddset(&ours, signal);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&ours, signal);
     sigprocmask(SIG_BLOCK, &ours, &before_);
     descriptor_ = signalfd(-1, &ours, SFD_NONBLOCK | SFD_CLOEXEC);
     if (descriptor_ >= 0) return;

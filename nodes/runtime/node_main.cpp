@@ -2,13 +2,11 @@
 
 #include <fmt/core.h>
 #include <poll.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
 #include <deque>
 #include <filesystem>
 #include <vector>
@@ -21,6 +19,7 @@
 #include "config/text/installation.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"
+#include "nodes/runtime/error_stream.hpp"
 #include "nodes/runtime/flood_watch.hpp"
 #include "nodes/runtime/input_watch.hpp"
 #include "nodes/runtime/limited_sink.hpp"
@@ -72,8 +71,7 @@ std::string key_folder_of(const config::Settings& settings) {
 namespace {
 
 std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string& level) {
-  const auto errors = std::make_shared<spdlog::sinks::stderr_sink_mt>();
-  auto logger = std::make_shared<spdlog::logger>(name, std::make_shared<LimitedSink>(errors));
+  auto logger = std::make_shared<spdlog::logger>(name, std::make_shared<LimitedSink>(std::make_shared<ErrorStream>()));
   logger->set_level(spdlog::level::from_str(level));
   logger->set_pattern("%H:%M:%S.%e %n %l: %v");
   return logger;
@@ -115,9 +113,14 @@ void run_as_member(const config::Settings& settings, const config::Robot& robot,
   }
 }
 
+void say_last(const char* name, const std::string& why) {
+  constexpr int kReaderTimeout_ms = 1000;
+  write_line(STDERR_FILENO, fmt::format("{}: {}\n", name, why), kReaderTimeout_ms);
+}
+
 /// Past the log, of which a flood leaves a few lines a second; the service manager is not to wait for signs of life.
 void end_by_itself(const char* name, const std::string& why) {
-  std::fprintf(stderr, "%s: %s\n", name, why.c_str());
+  say_last(name, why);
   if (const auto manager = Supervisor::of_environment()) manager->stopping();
 }
 
@@ -132,6 +135,7 @@ void warn_of_refusals(const bus::Realtime& granted, spdlog::logger& logger) {
 int node_main(int argc, char** argv, const char* name, const std::function<void(NodeContext&)>& body) {
   secure_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a node goes on where nobody reads its log lines any more
+  std::signal(SIGXFSZ, SIG_IGN);  // at a limit of `ulimit -f` a write fails, as on a full disk
   CLI::App app{fmt::format("Trivela's {} node", name)};
   app.set_version_flag("--version", config::version_lines(fmt::format("trivela-{}", name)));
   NodeFlags flags;
@@ -165,8 +169,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     logger->info("stopped");
     return flood.ended() ? 1 : 0;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", name,
-                 kicking::printable_lines(error.what()).c_str());  // does not throw where nobody listens
+    say_last(name, kicking::printable_lines(error.what()));
     return 1;
   }
 }

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <future>
 #include <thread>
 
@@ -33,7 +34,7 @@ TEST(Stop, AWaitWithAnEndIsOverThenOrOnceItIsRequested) {
 }
 
 TEST(Stop, ASignalRequestsItFromItsHandler) {
-  for (const int signal : {SIGTERM, SIGINT}) {
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
     Stop stop;
     {
       const StopOnSignals on_signals(stop);
@@ -74,6 +75,17 @@ TEST(Stop, NoAlarmIsLeftBehindByAStopInTime) {
     raise(SIGTERM);
   }
   EXPECT_EQ(alarm(0), 0U);
+}
+
+TEST(Stop, UnderNohupTheEndOfTheTerminalIsNoStop) {
+  std::signal(SIGHUP, SIG_IGN);
+  Stop stop;
+  {
+    const StopOnSignals on_signals(stop);
+    raise(SIGHUP);
+  }
+  std::signal(SIGHUP, SIG_DFL);
+  EXPECT_FALSE(stop.requested());
 }
 
 TEST(Stop, TheFormerHandlersComeBack) {
