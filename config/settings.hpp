@@ -155,7 +155,7 @@ struct Recorder {
 struct ScanRecorder {
   bool enabled = false;                                       ///< in lockstep the simulator waits for it
   RangeFinderDevice device;                                   ///< sim, tcp://HOST:PORT or a serial device
-  std::string file = "scans.db";                              ///< must not exist
+  std::string file = "scans.db";                              ///< one that exists stays; the next has a number
   double mount_x_m = 4.0;                                     ///< scanner from the ball at the launch, along the kick
   double mount_z_m = 0.05;                                    ///< over the floor
   double mount_front_elevation_rad = kicking::radians(90.0);  ///< of its front; 90 degrees: it looks straight up

@@ -42,6 +42,15 @@ bool claim(const fs::path& path, const LogKind& kind) {
   return true;
 }
 
+/// Of several that found it empty, or made it, at the same time one has it: what it writes here is for that alone.
+void take(SQLite::Database& database, const LogKind& kind) {
+  SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+  if (!is_blank(database) || database.execAndGet("PRAGMA application_id").getInt() != 0)
+    throw FileTaken("another process writes to it");
+  database.exec(fmt::format("PRAGMA application_id = {}", kind.application_id));
+  transaction.commit();
+}
+
 constexpr int kStepsACall = 20'000;  // of SQLite's machine: under a millisecond
 
 /// While it lives, statements of the connection end where `go_on` says no.
@@ -118,7 +127,7 @@ std::unique_ptr<SQLite::Database> new_file(const fs::path& path, const LogKind& 
     auto database =
         std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_URI, kBusyTimeout_ms);
     database->exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY;");
-    if (!is_blank(*database)) throw FileTaken("another process writes to it");
+    take(*database, kind);
     create(*database);
     database->exec("PRAGMA wal_checkpoint(TRUNCATE);");  // a copy without its -wal is at least known as what it is
     return database;

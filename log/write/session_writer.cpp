@@ -16,6 +16,7 @@
 namespace trivela::log {
 SessionWriter::SessionWriter(const std::filesystem::path& path, const NewLog& log)
     : kind_(log.kind),
+      path_(path),
       database_(new_file(path, log.kind, log.create)),
       session_id_(log.session_id),
       started_t_ns_(log.started_t_ns),
@@ -187,6 +188,22 @@ void SessionWriter::commit_end(const LossCounters& loss_counters, std::optional<
     if (schema_.contains("tallied_sessions")) write_tallies(*database_, session_id_);
   }
   transaction.commit();
+}
+
+bool SessionWriter::moved() const {
+  int moved = 0;
+  sqlite3_file_control(database_->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &moved);
+  return moved != 0;
+}
+
+std::filesystem::path SessionWriter::write_again() {
+  statements_.clear();
+  std::filesystem::path path = path_;
+  for (int n = 2; std::filesystem::exists(path); ++n) path = beside(path_, fmt::format(".{}", n).c_str());
+  SQLite::Statement copy(*database_, "VACUUM INTO ?");
+  copy.bind(1, path.string());
+  copy.exec();
+  return path;
 }
 
 bool SessionWriter::fold() {

@@ -125,6 +125,12 @@ class SessionWriter {
   /// Folds the write-ahead log into the file. False: a reader holds it, so that it stays beside the file.
   bool fold();
 
+  /// The file that the rows go to is not at its path any more: somebody deleted or renamed it.
+  bool moved() const;
+
+  /// Writes everything to the path again, or beside it where another file is there now. Returns where.
+  std::filesystem::path write_again();
+
   const LogKind& kind() const { return kind_; }
   std::int64_t session_id() const { return session_id_; }
   std::int64_t latest_t_ns() const { return latest_t_ns_; }
@@ -135,6 +141,7 @@ class SessionWriter {
   void write_losses(const std::vector<Loss>& losses, std::int64_t latest_t_ns);
 
   LogKind kind_;
+  std::filesystem::path path_;
   std::unique_ptr<SQLite::Database> database_;
   std::map<std::string, std::vector<Column>, std::less<>> schema_;  // by table
   std::vector<std::unique_ptr<SQLite::Statement>> statements_;      // by table

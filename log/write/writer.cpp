@@ -87,6 +87,8 @@ struct Writer::Impl {
       const auto late = pace.committed(now - begun, now - first, now);
       oldest_row = pace.oldest();
       if (late && options.warn_late) warn(*late);
+      if (connection.moved() && !std::exchange(moved_said, true))
+        warn(path + " was deleted or renamed: its rows are written again at the end");
       queue.settle(group.size(), std::nullopt);
       return true;
     } catch (const std::exception& error) {
@@ -133,7 +135,8 @@ struct Writer::Impl {
   const std::string path;
   const WriterOptions options;
   RowQueue queue;
-  CommitPace pace;  // of the thread
+  CommitPace pace;          // of the thread
+  bool moved_said = false;  // of the thread
   LossCounters loss_counters;
   std::mutex mutex;  // of the next six
   std::deque<RowTable> tables;
@@ -217,8 +220,11 @@ std::optional<std::string> Writer::health() const { return impl_->queue.error();
 Stats Writer::stats() const {
   const std::chrono::duration<double> busy = impl_->last_commit.load() - impl_->first_push.load();
   const std::int64_t written = impl_->rows_written;
+  std::int64_t missing = 0;
+  for (const Loss& loss : impl_->loss_counters.all()) missing += loss.missing();
   return {.rows_written = written,
           .rows_missing = impl_->rows_missing,
+          .samples_missing = missing,
           .commits = impl_->commits,
           .rows_per_s = written > 0 && busy.count() > 0.0 ? static_cast<double>(written) / busy.count() : 0.0,
           .queue_high_water = impl_->queue.high_water(),
@@ -237,7 +243,10 @@ void Writer::finalise(std::optional<std::int64_t> closed_t_ns) {
     SessionWriter& connection = impl_->connection;
     const std::int64_t end = closed_t_ns.value_or(connection.latest_t_ns());
     connection.commit_end(impl_->loss_counters, missing > 0 ? std::nullopt : std::optional(end));
-    if (!connection.fold()) {
+    if (connection.moved()) {
+      impl_->warn(fmt::format("{} was deleted or renamed: all its rows are in {}", impl_->path,
+                              connection.write_again().string()));
+    } else if (!connection.fold()) {
       impl_->warn(fmt::format("{} is being read; it is whole together with its -wal file", impl_->path));
     }
   } catch (const std::exception& error) {

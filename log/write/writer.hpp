@@ -30,10 +30,11 @@ struct TableId {
 };
 
 struct Stats {
-  std::int64_t rows_written = 0;  ///< committed
-  std::int64_t rows_missing = 0;  ///< queue full, NaN or against the schema
-  std::int64_t commits = 0;       ///< groups of rows
-  double rows_per_s = 0.0;        ///< committed rows over the wall time from the first push to the last commit
+  std::int64_t rows_written = 0;     ///< committed
+  std::int64_t rows_missing = 0;     ///< queue full, NaN or against the schema
+  std::int64_t samples_missing = 0;  ///< the same, and those that never came here
+  std::int64_t commits = 0;          ///< groups of rows
+  double rows_per_s = 0.0;           ///< committed rows over the wall time from the first push to the last commit
   std::size_t queue_high_water = 0;
   double oldest_row_s = 0.0;  ///< longest from a push to the end of its commit
 };

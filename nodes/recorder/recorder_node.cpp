@@ -251,7 +251,7 @@ int recorder_main(int argc, char** argv) {
     log.finalise();
     const auto stats = log.stats();
     fmt::print("recorded {} rows, {:.0f} a second, queue high-water {} of {}, {} missing: {}\n", stats.rows_written,
-               stats.rows_per_s, stats.queue_high_water, settings.queue_capacity, stats.rows_missing,
+               stats.rows_per_s, stats.queue_high_water, settings.queue_capacity, stats.samples_missing,
                placed->path.string());
   });
 }

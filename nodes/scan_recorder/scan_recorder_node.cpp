@@ -1,18 +1,22 @@
 #include "nodes/scan_recorder/scan_recorder_node.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
-#include <filesystem>
 #include <utility>
 
 #include "bus/executor.hpp"
 #include "config/text/installation.hpp"
 #include "hal/open.hpp"
+#include "log/file/new_file.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
 namespace {
+
+constexpr int kMostFiles = 99;
 
 log::ScanSession session_of_scans(const NodeContext& context, const hal::RangeFinder& scanner, std::int64_t t_ns) {
   const config::ScanRecorder& settings = context.settings.scan_recorder;
@@ -42,6 +46,7 @@ ScanRecorderNode::ScanRecorderNode(NodeContext& context, std::unique_ptr<hal::Ra
       scanner_(std::move(scanner)),
       node_(context.participant, "scan_recorder", context.robot_id()),
       emulation_(context, node_),
+      file_(context.settings.scan_recorder.file),
       step_done_(step_done_writer(context, node_)) {
   node_.on_device(
       "range_finder", [this](std::chrono::nanoseconds timeout) { return next_scan(timeout); },
@@ -77,7 +82,17 @@ std::optional<kicking::lob::Scan> ScanRecorderNode::next_scan(std::chrono::nanos
 void ScanRecorderNode::open(std::int64_t t_ns) {
   log::WriterOptions options;
   options.warn = [logger = context_.logger](const std::string& line) { logger->warn(line); };
-  log_.emplace(context_.settings.scan_recorder.file, session_of_scans(context_, *scanner_, t_ns), options);
+  const std::filesystem::path wanted = context_.settings.scan_recorder.file;
+  const log::ScanSession session = session_of_scans(context_, *scanner_, t_ns);
+  for (int n = 2; !log_; ++n) {
+    try {
+      log_.emplace(file_, session, options);
+    } catch (const log::FileTaken& taken) {
+      if (context_.settings.run.lockstep || n > kMostFiles) throw;
+      const auto next = fmt::format("{}-{}{}", wanted.stem().string(), n, wanted.extension().string());
+      context_.logger->warn("{}: recording to {}", taken.what(), (file_ = wanted.parent_path() / next).string());
+    }
+  }
   emulation_.see(msg::PART_RANGE_FINDER, is_emulated(scanner_->identity()), t_ns);
   for (const auto& tested : early_) log_->set_point(tested);
   early_.clear();
@@ -121,7 +136,7 @@ int scan_recorder_main(int argc, char** argv) {
                                                           {context.participant, context.robot_id()})};
     bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}, context.watchdog_hook()}.run();
     node.finish();
-    context.logger->info("recorded {} scans: {}", node.scans(), context.settings.scan_recorder.file);
+    context.logger->info("recorded {} scans: {}", node.scans(), node.file().string());
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -24,6 +25,8 @@ class ScanRecorderNode {
 
   /// Scans recorded so far.
   std::uint64_t scans() const { return scans_; }
+  /// Where they are: `scan_recorder.file`, in real time with a number behind its name where that is taken.
+  const std::filesystem::path& file() const { return file_; }
 
  private:
   std::optional<kicking::lob::Scan> next_scan(std::chrono::nanoseconds timeout);
@@ -35,6 +38,7 @@ class ScanRecorderNode {
   std::unique_ptr<hal::RangeFinder> scanner_;
   bus::Node node_;
   SimulatedDeviceNotice emulation_;
+  std::filesystem::path file_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   bool connected_ = false;
   bool waiting_ = false;  ///< said so

@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
 #include <fstream>
+#include <latch>
 #include <limits>
 #include <thread>
 
+#include "log/file/new_file.hpp"
 #include "log/schema/digest.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
@@ -23,6 +26,12 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using LogWriter = LogTest;
+
+int drives_in(const std::filesystem::path& log) {
+  int rows = 0;
+  Reader(log).for_each_row("drive_commands", {"vx_mps"}, [&](std::span<const Value>) { ++rows; });
+  return rows;
+}
 
 TEST_F(LogWriter, WritesRowsThatAreReadBackInOrder) {
   {
@@ -273,6 +282,64 @@ TEST_F(LogWriter, ARecordedMatchIsNeverOverwritten) {
   }
   EXPECT_EQ(std::filesystem::file_size(path()), size);
   EXPECT_EQ(Reader(path()).sessions().size(), 1u);
+}
+
+TEST_F(LogWriter, OfTwoThatBeginAtOnceOneHasTheFileAndKeepsIt) {
+  for (int round = 0; round < 30; ++round) {
+    const auto log = path(std::to_string(round) + ".db");
+    std::latch both{2};
+    std::atomic<int> recorded = 0;
+    const auto record = [&] {
+      both.arrive_and_wait();
+      try {
+        Writer writer(log, session(), options());
+        EXPECT_TRUE(writer.push(drive_table(writer), drive_row(1, 0.5)));
+        writer.finalise();
+        ++recorded;
+      } catch (const log::FileTaken&) {
+      } catch (const std::exception& error) {
+        ADD_FAILURE() << error.what();
+      }
+    };
+    std::thread other(record);
+    record();
+    other.join();
+    EXPECT_EQ(recorded, 1) << round;
+    EXPECT_THAT(Reader(log).sessions(), SizeIs(1)) << round;
+  }
+}
+
+TEST_F(LogWriter, ALogThatIsDeletedOrRenamedMeanwhileIsWrittenAgain) {
+  for (const bool deleted : {true, false}) {
+    const auto log = path(deleted ? "deleted.db" : "renamed.db");
+    Writer writer(log, session(), options());
+    const auto drive = drive_table(writer);
+    writer.push(drive, drive_row(1, 0.5));
+    writer.flush();
+    if (deleted) {
+      std::filesystem::remove(log);
+    } else {
+      std::filesystem::rename(log, path("old.db"));
+    }
+    writer.push(drive, drive_row(2, 0.5));
+    writer.flush();
+    ASSERT_THAT(warnings_, SizeIs(1));
+    EXPECT_THAT(warnings_[0], HasSubstr("was deleted or renamed"));
+    writer.finalise();
+    EXPECT_EQ(drives_in(log), 2);
+    warnings_.clear();
+  }
+}
+
+TEST_F(LogWriter, WhereAnotherFileIsThereNowItIsWrittenBesideIt) {
+  Writer writer(path(), session(), options());
+  writer.push(drive_table(writer), drive_row(1, 0.5));
+  writer.flush();
+  std::filesystem::rename(path(), path("old.db"));
+  std::ofstream(path()) << "mine";
+  writer.finalise();
+  EXPECT_EQ(std::filesystem::file_size(path()), 4u);
+  EXPECT_EQ(drives_in(path("match.db.2")), 1);
 }
 
 TEST_F(LogWriter, ALogBesideALeftOverWriteAheadLogIsRefused) {

@@ -105,6 +105,24 @@ TEST_F(ScanRecorderNodeTest, SaysThatTheScannerIsAProgramAndTheRecordDoesToo) {
   EXPECT_EQ(record.session().source, scanner.address());
 }
 
+TEST_F(ScanRecorderNodeTest, ARecordOfBeforeStaysAndTheNextHasANumber) {
+  std::ofstream(folder / "scans.db") << "of before";
+  const hal::scip::Emulator scanner{{}, [t_ns = std::int64_t{0}]() mutable {
+                                      t_ns += 25'000'000;
+                                      return kicking::lob::Scan{t_ns, std::vector<std::uint32_t>(1081, 2000)};
+                                    }};
+  context.settings.scan_recorder.device = config::ScipDevice{.address = scanner.address(), .host = {}};
+  Received<msg::DeviceEmulated> emulated{participant};
+  node.emplace(context, hal::open_range_finder(scanner.address()));
+  running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
+  EXPECT_EQ(emulated.nth(1).part, msg::PART_RANGE_FINDER);
+  running.reset();
+  node->finish();
+  EXPECT_EQ(std::filesystem::file_size(folder / "scans.db"), 9u);
+  EXPECT_EQ(node->file(), folder / "scans-2.db");
+  EXPECT_TRUE(ScanReader{folder / "scans-2.db"}.session().simulated);
+}
+
 TEST_F(ScanRecorderNodeTest, WithoutAnyScanThereIsNoRecord) {
   start();
   receipt(7, true, 15.0, 5'000'000);
