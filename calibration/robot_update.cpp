@@ -14,6 +14,10 @@
 namespace trivela::calibration {
 namespace {
 
+// A kicker changes by more from one day to the next: an error below it is none.
+constexpr double kDailyAngle_rad = kicking::radians(0.1);
+constexpr double kDailyDelay_s = 0.003;
+
 using kicking::degrees;
 
 // What a file says: figures with five decimals in its unit, errors with three digits.
@@ -112,6 +116,15 @@ void RobotUpdate::unknown(const std::string& key, double before) {
   changes_.push_back(fmt::format("{} stays {}: the kicks do not show it", key, number(before)));
 }
 
+/// The standard error of a mean, as policies reckon with it; where the kicks do not show it, that of before stays.
+void RobotUpdate::set_error(const std::string& key, double& before, const kicking::Estimate& mean, double daily,
+                            double unit, std::size_t kicks) {
+  if (std::isnan(mean.se)) return unknown(key, before / unit);
+  const double after = mean.se < daily ? 0.0 : figure(mean.se / unit);
+  if (after != before / unit) changed(key, before / unit, after, fmt::format("{} kicks", kicks));
+  before = after * unit;
+}
+
 void RobotUpdate::set_speeds(std::span<const kicking::SetPoint> points, kicking::TableKind kind) {
   if (kind == kicking::TableKind::kTrue) {
     if (calibration().table && !robot_.true_table) {
@@ -159,7 +172,8 @@ void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& cho
   spread("speed_sd_ratio", spreads.speed_sd_ratio, fit.exit_speed_sd_ratio, 1.0);
   spread("exit_angle_sd_deg", spreads.exit_angle_sd_rad, fit.exit_angle_sd_rad, kicking::radians(1.0));
   spread("table_sd_ratio", spreads.table_sd_ratio, fit.exit_speed_se_ratio, 1.0);
-  spreads.exit_angle_se_rad = 0.0;  // far below what a kicker changes in a day
+  set_error("kicker.spreads.exit_angle_se_deg", spreads.exit_angle_se_rad, fit.exit_angle_rad, kDailyAngle_rad,
+            kicking::radians(1.0), fit.exit_angles);
   calibration().table = std::move(table);
   calibration().exit_angle = {origin(fit.exit_angles, files), error_deg(fit.exit_angle_rad.se),
                               error_deg(fit.angle_spread_rad)};
@@ -266,7 +280,7 @@ void RobotUpdate::set_delay(const kicking::DelayFit& fit, const std::vector<std:
   robot_.model.delay_s = figure(fit.mean_s.value);
   changed("kicker.spreads.delay_sd_s", robot_.model.spreads.delay_sd_s, fit.sd_s, fmt::format("{} kicks", kicks));
   robot_.model.spreads.delay_sd_s = figure(fit.sd_s);
-  robot_.model.spreads.delay_se_s = 0.0;
+  set_error("kicker.spreads.delay_se_s", robot_.model.spreads.delay_se_s, fit.mean_s, kDailyDelay_s, 1.0, kicks);
   calibration().delay = {origin(kicks, files), error(fit.mean_s.se), error(fit.sd_s)};
 }
 

@@ -76,6 +76,8 @@ class RobotUpdate {
   void set_speeds(std::span<const kicking::SetPoint> points, kicking::TableKind kind);
   void set_transfer_spread();
   void unknown(const std::string& key, double before);
+  void set_error(const std::string& key, double& before, const kicking::Estimate& mean, double daily, double unit,
+                 std::size_t kicks);
   void changed(const std::string& key, double before, double after, const std::string& certainty);
 
   config::Robot robot_;

@@ -103,6 +103,7 @@ void check_bus(const fs::path& folder, Bus bus, std::uint32_t robot_id, const st
 }  // namespace
 
 std::vector<std::string> faults_of(const KeyFolder& folder, std::chrono::sys_seconds now) {
+  if (!fs::is_directory(folder.path())) return {fmt::format("{}: there is no such folder", folder.path().string())};
   Faults faults;
   const auto robots = folder.robots();
   if (const auto mode = fs::status(folder.path()).permissions();

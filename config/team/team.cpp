@@ -26,8 +26,8 @@ void fields(V& v, TeamFields& t) {
 
 template <class V>
 void fields(V& v, TeamDomains& d) {
-  v("robot", d.robot, Range{0, 232});
-  v("team", d.team, Range{0, 232});
+  v("robot", d.robot, Range{0, 100});
+  v("team", d.team, Range{0, 100});
 }
 
 template <class V>

@@ -141,7 +141,8 @@ class TeamCheck {
 
   void check_robot(const TeamRobot& robot) {
     const std::string who = fmt::format("robot {}", robot.number);
-    if (robot.number == 0) add(robot.lines, "number", "robot.number is missing: 1 to 255");
+    if (robot.number == 0 && !robot.lines.contains("number"))
+      add(robot.lines, "number", "robot.number is missing: 1 to 255");
     check_twins(robot, who);
     check_address(robot.lines, "address", who + ": address", robot.address);
     if (!robot.interface.empty()) check_interface(robot.lines, "robot.interface", robot.interface);

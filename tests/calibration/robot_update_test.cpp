@@ -106,7 +106,9 @@ TEST(RobotUpdate, ATableThatWasMeasuredReplacesTheOneMadeByHand) {
   by_hand.height_table = kicking::DistanceTable{{{3.0, 15.0}, {6.0, 25.0}}};
   by_hand.model.spreads.exit_angle_se_rad = radians(2.0);
   RobotUpdate robot = update(by_hand);
-  robot.set_table(two_set_points(), {}, {"lobs.csv"});
+  kicking::TableFit table = two_set_points();
+  table.exit_angle_rad.se = radians(0.03);
+  robot.set_table(table, {}, {"lobs.csv"});
   const config::Robot read = written(robot);
   EXPECT_FALSE(read.height_table);
   EXPECT_EQ(read.model.table.set_points().size(), 2u);
@@ -133,6 +135,34 @@ TEST(RobotUpdate, ADelayCountsNoReadingThatWasLeftOutAndIsNoGuessAnyMore) {
   EXPECT_EQ(read.calibration->kicks, 10u);
   EXPECT_EQ(read.model.spreads.delay_se_s, 0.0);
   EXPECT_EQ(read.model.spreads.delay_sd_s, 0.002);
+}
+
+TEST(RobotUpdate, AFewKicksLeaveTheErrorsThatTheyHave) {
+  config::Robot guessed;
+  guessed.model.spreads.delay_se_s = 0.06;
+  guessed.model.spreads.exit_angle_se_rad = radians(4.0);
+  RobotUpdate robot = update(guessed);
+  kicking::DelayFit delay = delay_of(0.05, 0.02, 4, 0);
+  delay.mean_s.se = 0.01;
+  robot.set_delay(delay, {"delays.csv"});
+  kicking::TableFit table = two_set_points();
+  table.exit_angle_rad.se = radians(0.65);
+  robot.set_table(table, {}, {"lobs.csv"});
+  EXPECT_THAT(robot.changes(), Contains("kicker.spreads.delay_se_s 0.06 -> 0.01 (4 kicks)"));
+  const config::Robot read = written(robot);
+  EXPECT_EQ(read.model.spreads.delay_se_s, 0.01);
+  EXPECT_NEAR(degrees(read.model.spreads.exit_angle_se_rad), 0.65, 1e-9);
+}
+
+TEST(RobotUpdate, OfASingleKickTheErrorOfBeforeStays) {
+  config::Robot guessed;
+  guessed.model.spreads.exit_angle_se_rad = radians(4.0);
+  RobotUpdate robot = update(guessed);
+  kicking::TableFit table = two_set_points();
+  table.exit_angle_rad.se = std::nan("");
+  robot.set_table(table, {}, {"lobs.csv"});
+  EXPECT_THAT(robot.changes(), Contains("kicker.spreads.exit_angle_se_deg stays 4: the kicks do not show it"));
+  EXPECT_NEAR(degrees(robot.robot().model.spreads.exit_angle_se_rad), 4.0, 1e-9);
 }
 
 TEST(RobotUpdate, ADeflectionSetsTheLateralShareOfTheExactLawAlone) {

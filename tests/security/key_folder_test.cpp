@@ -56,6 +56,10 @@ TEST_F(Keys, AFolderThatOthersMayWriteToIsNamed) {
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("somebody else than its owner may put other keys into it")));
 }
 
+TEST(KeysOfNobody, AFolderThatIsNotThereIsNamedAsSuch) {
+  EXPECT_THAT(faults_of(KeyFolder{"/nowhere/keys"}, kNow), ElementsAre("/nowhere/keys: there is no such folder"));
+}
+
 TEST_F(Keys, ADeviceInTheirPlaceIsNotRead) {
   fs::remove(team.robot(1) / "kicker_driver.p7s");
   fs::create_symlink("/dev/zero", team.robot(1) / "kicker_driver.p7s");
