@@ -10,10 +10,14 @@ namespace {
 constexpr double kNsPerS = 1e9;
 constexpr double kPeriodsPerDeadline = 3.0;
 constexpr std::size_t kMostSamples = 100'000;  // of a window
-constexpr std::size_t kMostWriters = 64;
+constexpr std::size_t kMostLosses = 10'000;
 
 // Beyond this an instant is of another clock, such as lockstep's.
 constexpr std::int64_t kOldest_ns = 10'000'000'000;
+
+bool is_old(std::int64_t lost_ns, std::int64_t now_ns) {
+  return static_cast<double>(now_ns - lost_ns) > StreamStatistics::kNews_s * kNsPerS;
+}
 
 // The value below which a part of them lies; none of none.
 std::optional<double> quantile(std::vector<double> values, double part) {
@@ -33,12 +37,16 @@ std::int64_t StreamStatistics::deadlines_in(std::int64_t ns) const {
 
 void StreamStatistics::count(std::uint8_t robot_id, const ReceivedSample& received_sample) {
   if (!received_sample.seq) return;
-  if (numbers_.size() >= kMostWriters && !numbers_.contains(received_sample.writer)) numbers_.erase(numbers_.begin());
-  const auto finding = numbers_[received_sample.writer].see(robot_id, *received_sample.seq, received_sample.writer,
-                                                            static_cast<double>(received_sample.received_ns) / kNsPerS);
+  const auto finding = numbers_.see(robot_id, *received_sample.seq, received_sample.writer,
+                                    static_cast<double>(received_sample.received_ns) / kNsPerS);
   if (!finding.believed) return;
-  counts_.lost += finding.gap - (finding.filled ? 1 : 0);
   if (finding.out_of_order) ++counts_.out_of_order;
+  const std::int64_t lost = finding.gap - (finding.filled ? 1 : 0);
+  if (lost == 0) return;
+  counts_.lost += lost;
+  losses_.emplace_back(received_sample.received_ns, lost);
+  while (losses_.size() > kMostLosses || is_old(losses_.front().first, received_sample.received_ns))
+    losses_.pop_front();
 }
 
 void StreamStatistics::see(std::uint8_t robot_id, const ReceivedSample& received_sample) {
@@ -64,6 +72,9 @@ StreamFigures StreamStatistics::figures(std::int64_t now_ns) const {
   const std::int64_t silent_ns = now_ns - window_.back().received_ns;
   figures.silent_for_s = static_cast<double>(silent_ns) / kNsPerS;
   figures.missed_deadlines += deadlines_in(silent_ns);
+  for (const auto& [at_ns, lost] : losses_) {
+    if (!is_old(at_ns, now_ns)) figures.lost_lately += lost;
+  }
   std::vector<double> latencies_us, ages_ms;
   std::int64_t in_window = 0, in_second = 0;
   for (const Sample& sample : window_) {

@@ -2,9 +2,8 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <optional>
-#include <string>
+#include <utility>
 
 #include "robot/watch/sequence_watch.hpp"
 
@@ -29,6 +28,7 @@ struct StreamFigures {
   std::optional<double> age_p50_ms;      ///< from `t_ns` to reception; none where that is not this machine's clock
   std::int64_t received = 0;             ///< since we listen, as are the following
   std::int64_t lost = 0;                 ///< numbers skipped and not made good since
+  std::int64_t lost_lately = 0;          ///< of these, in the last kNews_s
   std::int64_t out_of_order = 0;
   std::int64_t missed_deadlines = 0;   ///< times that three periods went by without a sample
   std::optional<double> silent_for_s;  ///< since the last one
@@ -38,12 +38,14 @@ struct StreamFigures {
 class StreamStatistics {
  public:
   static constexpr double kWindow_s = 5.0;
+  static constexpr double kNews_s = 10.0;
 
   /// `period_s`: the longest time between two samples while all is well; 0: none.
   explicit StreamStatistics(double period_s) : period_s_(period_s) {}
 
   void see(std::uint8_t robot_id, const ReceivedSample& received_sample);
   StreamFigures figures(std::int64_t now_ns) const;
+  std::int64_t lost() const { return counts_.lost; }
 
  private:
   struct Sample {
@@ -58,7 +60,8 @@ class StreamStatistics {
   std::int64_t first_ns_ = 0;
   StreamFigures counts_;
   std::deque<Sample> window_;
-  std::map<std::uint64_t, robot::SequenceWatch> numbers_;  // by writer: a standby's are its own
+  std::deque<std::pair<std::int64_t, std::int64_t>> losses_;  // when, how many; what was made good counts below 0
+  robot::SequenceWatch numbers_;
 };
 
 }  // namespace trivela::monitor

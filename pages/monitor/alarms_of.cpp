@@ -13,25 +13,42 @@ namespace {
 
 using Alarms = std::map<std::string, std::string>;
 
+constexpr double kSilentPeriods = 3.0;
+constexpr double kShortestSilence_s = 0.5;         // a page is for eyes, and a machine may be busy
 constexpr std::int64_t kUnarmed_ns = 500'000'000;  // the driver arms a cycle after the referee's word
 constexpr std::size_t kLastKicks = 10;
 constexpr int kMostUnknown = 2;  // of them
 
-void note_silences(const SceneState& state, Alarms& alarms) {
-  if (state.over) return;
-  for (const std::uint8_t id : state.streams.robots()) {
-    if (state.streams.all_silent(id)) {
-      alarms[fmt::format("{}/silent", id)] = fmt::format("robot {} is silent", id);
-      continue;
-    }
-    for (const std::string& topic : state.streams.silent(id)) {
-      alarms[fmt::format("{}/silent/{}", id, topic)] =
-          topic == bus::meta<msg::Referee>::topic ? fmt::format("robot {}: the referee is silent", id)
-                                                  : fmt::format("robot {}: no {} is received any more", id, topic);
-    }
+void note_silences(std::uint8_t id, const std::vector<std::string>& silent, bool all, Alarms& alarms) {
+  if (all) {
+    alarms[fmt::format("{}/silent", id)] = fmt::format("robot {} is silent", id);
+    return;
   }
-  if (!state.robots.empty() && !state.streams.was_received(std::string{bus::meta<msg::Referee>::topic}))
-    alarms["referee"] = "no referee has been received";
+  for (const std::string& topic : silent) {
+    alarms[fmt::format("{}/silent/{}", id, topic)] =
+        topic == bus::meta<msg::Referee>::topic ? fmt::format("robot {}: the referee is silent", id)
+                                                : fmt::format("robot {}: no {} is received any more", id, topic);
+  }
+}
+
+void note_streams(const SceneState& state, std::uint8_t id, Alarms& alarms) {
+  std::vector<std::string> silent;
+  std::size_t periodic = 0;
+  for (const auto& [topic, stream] : state.streams) {
+    const auto received = stream.robots.find(id);
+    if (received == stream.robots.end()) continue;
+    const monitor::StreamFigures figures = received->second.figures(state.awake_ns);
+    if (figures.lost_lately > 0) {
+      const std::string how_many =
+          figures.lost_lately == 1 ? "a message" : fmt::format("{} messages", figures.lost_lately);
+      alarms[fmt::format("{}/missed/{}", id, topic)] =
+          fmt::format("robot {}: this page missed {} of {}", id, how_many, topic);
+    }
+    if (stream.period_s <= 0.0) continue;
+    ++periodic;
+    if (figures.silent_for_s > std::max(kSilentPeriods * stream.period_s, kShortestSilence_s)) silent.push_back(topic);
+  }
+  if (!state.over) note_silences(id, silent, periodic > 0 && silent.size() == periodic, alarms);
 }
 
 const char* words_of(msg::KickerFault fault) {
@@ -96,16 +113,12 @@ void note_kicks(const SceneState& state, std::int64_t now_ns, Alarms& alarms) {
 
 Alarms alarms_of(const SceneState& state, std::int64_t now_ns) {
   Alarms alarms;
-  note_silences(state, alarms);
+  for (const auto& [id, robot] : state.robots) note_streams(state, id, alarms);
+  const bool refereed = !state.streams.at(std::string{bus::meta<msg::Referee>::topic}).robots.empty();
+  if (!state.over && !state.robots.empty() && !refereed) alarms["referee"] = "no referee has been received";
   note_kickers(state, now_ns, alarms);
   note_drifts(state, alarms);
   note_kicks(state, now_ns, alarms);
-  for (const auto& [stream, messages] : state.streams.missed_lately(now_ns)) {
-    const auto& [id, topic] = stream;
-    const std::string how_many = messages == 1 ? "a message" : fmt::format("{} messages", messages);
-    alarms[fmt::format("{}/missed/{}", id, topic)] =
-        fmt::format("robot {}: this page missed {} of {}", id, how_many, topic);
-  }
   if (state.not_shown > 0)
     alarms["not_shown"] =
         fmt::format("messages of more than {} robots, or of robot 0: not shown", MatchScene::kMostRobots);

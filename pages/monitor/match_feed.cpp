@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kFrameTime{40};
-constexpr int kFramesALook = 3;     // StreamStatus::kStep_ns
+constexpr int kFramesALook = 3;     // MatchScene::kStep_ns
 constexpr int kFramesAMatch = 5;    // a person reads no faster
 constexpr int kFramesACensus = 25;  // discovery is as slow
 

@@ -26,8 +26,7 @@ MatchScene::MatchScene(SceneSettings settings) : state_(std::move(settings)) {
     if constexpr (listens_to<T>()) {
       const double period_s =
           bus::meta<T>::period_s > 0.0 ? std::max(bus::meta<T>::period_s, state_.settings.cycle_s) : 0.0;
-      const std::string topic{bus::meta<T>::topic};
-      streams_[topic] = state_.streams.add(topic, period_s);
+      state_.streams[std::string{bus::meta<T>::topic}].period_s = period_s;
     }
   });
 }
@@ -42,13 +41,23 @@ bool MatchScene::has_place(std::uint8_t robot_id) {
   return true;
 }
 
+std::int64_t MatchScene::awake_at(std::int64_t now_ns) const {
+  return state_.awake_ns + std::clamp<std::int64_t>(now_ns - looked_ns_.value_or(now_ns), 0, 2 * kStep_ns);
+}
+
+void MatchScene::count(const std::string& topic, std::uint8_t robot_id, const monitor::ReceivedSample& received) {
+  SceneStream& stream = state_.streams.at(topic);
+  stream.robots.try_emplace(robot_id, stream.period_s).first->second.see(robot_id, received);
+}
+
 void MatchScene::note_members(std::vector<std::string> nodes, const std::set<std::string>& simulated) {
   state_.nodes = std::move(nodes);
   state_.simulated.insert(simulated.begin(), simulated.end());
 }
 
 void MatchScene::look(std::int64_t now_ns) {
-  state_.streams.look(now_ns);
+  state_.awake_ns = awake_at(now_ns);
+  looked_ns_ = now_ns;
   for (auto& [id, robot] : state_.robots) {
     const auto* world = robot.world.within(kFresh_ns, now_ns);
     const auto* kicker = robot.kicker.within(kFresh_ns, now_ns);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -11,9 +12,9 @@
 
 #include "idl/messages.hpp"
 #include "kicking/geometry/goal.hpp"
+#include "monitor/stream_statistics.hpp"
 #include "pages/monitor/kick_ledger.hpp"
 #include "pages/monitor/robot_view.hpp"
-#include "pages/monitor/stream_status.hpp"
 
 namespace trivela::pages {
 
@@ -56,13 +57,20 @@ struct SceneSettings {
   GoalRules goal_rules{};
 };
 
+/// A topic as the page hears it, by its own clock alone, so that it holds in lockstep as well.
+struct SceneStream {
+  double period_s = 0.0;  ///< 0: it has none
+  std::map<std::uint8_t, monitor::StreamStatistics> robots{};
+};
+
 /// All that the page knows.
 struct SceneState {
   SceneSettings settings;
   std::map<std::uint8_t, RobotView> robots;
   Latest<msg::Referee> referee;
   KickLedger kicks;
-  StreamStatus streams;
+  std::map<std::string, SceneStream> streams;  ///< by topic
+  std::int64_t awake_ns = 0;                   ///< time that went on while somebody looked
   ActiveAlarms alarms;
   std::set<std::string> simulated;  ///< what says so; empty: nothing
   std::vector<std::string> nodes;   ///< programs that are there
@@ -77,6 +85,7 @@ struct SceneState {
 class MatchScene {
  public:
   static constexpr std::size_t kMostRobots = 16;  // anybody may say any number
+  static constexpr std::int64_t kStep_ns = 100'000'000;
 
   explicit MatchScene(SceneSettings settings);
 
@@ -90,7 +99,8 @@ class MatchScene {
   template <bus::Message T>
   void receive(const T& sample, std::uint64_t writer, std::int64_t now_ns) {
     if (!has_place(sample.robot_id)) return;
-    state_.streams.received(streams_.at(std::string{bus::meta<T>::topic}), sample.robot_id, sample.seq, writer, now_ns);
+    count(std::string{bus::meta<T>::topic}, sample.robot_id,
+          {.writer = writer, .seq = sample.seq, .received_ns = awake_at(now_ns)});
     take(sample, now_ns);
   }
 
@@ -100,13 +110,16 @@ class MatchScene {
   /// The match has ended as planned: silence is no alarm from here on, and no outcome is waited for.
   void note_over() { state_.over = true; }
 
-  /// To be called each StreamStatus::kStep_ns: what fell silent, which alarms hold.
+  /// To be called each kStep_ns: what fell silent, which alarms hold. Where it comes later by far, it was this page
+  /// that stood still: the time beyond two steps is nobody's silence.
   void look(std::int64_t now_ns);
 
   const SceneState& state() const { return state_; }
 
  private:
   bool has_place(std::uint8_t robot_id);
+  std::int64_t awake_at(std::int64_t now_ns) const;
+  void count(const std::string& topic, std::uint8_t robot_id, const monitor::ReceivedSample& received);
   void take(const auto&, std::int64_t) {}
   void take(const msg::WorldState& world, std::int64_t now_ns);
   void take(const msg::KickDecision& decision, std::int64_t now_ns);
@@ -123,7 +136,7 @@ class MatchScene {
   void take(const msg::Referee& referee, std::int64_t now_ns);
 
   SceneState state_;
-  std::map<std::string, std::size_t> streams_;
+  std::optional<std::int64_t> looked_ns_;
 };
 
 /// Now, for the fates of kicks.

@@ -201,6 +201,14 @@ Json mended_json(const SceneState& state) {
   return mended;
 }
 
+std::int64_t missed(const SceneState& state) {
+  std::int64_t messages = 0;
+  for (const auto& [topic, stream] : state.streams) {
+    for (const auto& [id, received] : stream.robots) messages += received.lost();
+  }
+  return messages;
+}
+
 Json field_json(const SceneSettings& settings) {
   return {{"goal_y", number(settings.goal.y_m)},
           {"goal_half_width", number(settings.goal.half_width_m)},
@@ -232,7 +240,7 @@ std::string match_json(const SceneState& state, std::int64_t now_ns) {
                  {"table", table_json(running_table(state.kicks.tallies(now)))},
                  {"alarms", alarms_json(state)},
                  {"mended", mended_json(state)},
-                 {"missed", state.streams.missed()},
+                 {"missed", missed(state)},
                  {"nodes", state.nodes}});
 }
 

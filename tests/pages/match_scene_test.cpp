@@ -87,6 +87,13 @@ TEST_F(Scene, AStreamThatFallsSilentIsAnAlarmUntilItIsHeardAgain) {
   EXPECT_GT(mended[0]["to_ms"], mended[0]["from_ms"]);
 }
 
+TEST_F(Scene, APageThatStandsStillCallsNobodySilent) {
+  play(1000);
+  now += 5'000'000'000;
+  scene.look(now);
+  EXPECT_THAT(alarms(), IsEmpty());
+}
+
 TEST_F(Scene, ARefereeWhoFallsSilentIsNamed) {
   play(1000);
   speaks.referee = false;
