@@ -114,17 +114,22 @@ void EmulatedLine::receive() {
 
 /// What nobody reads for long is not kept: a device does not wait either.
 void EmulatedLine::say(std::vector<std::string> messages) {
-  if (out_.size() < kMostWaiting) std::ranges::move(messages, std::back_inserter(out_));
+  if (out_.size() >= kMostWaiting) return;
+  for (std::string& message : messages) {
+    device_.unread_B += message.size();
+    out_.push_back(std::move(message));
+  }
 }
 
 void EmulatedLine::send() {
-  if (!cable_ || socket_->client() < 0) return out_.clear();
+  if (!cable_ || socket_->client() < 0) return forget_unread();
   while (!out_.empty()) {
     std::string& message = out_.front();
     ssize_t count = ::send(socket_->client(), message.data(), message.size(), MSG_NOSIGNAL);
     if (count < 0 && errno == ENOTSOCK) count = ::write(socket_->client(), message.data(), message.size());
     if (count < 0) return;  // the next read says whether the client is gone
     message.erase(0, static_cast<std::size_t>(count));
+    device_.unread_B -= static_cast<std::size_t>(count);
     if (message.empty()) out_.pop_front();
   }
 }
@@ -144,8 +149,13 @@ void EmulatedLine::wait_for_events(std::unique_lock<std::mutex>& lock) {
   if (cable_ && (polled[1].revents & POLLIN) != 0) socket_->accept();
 }
 
-void EmulatedLine::client_gone() {
+void EmulatedLine::forget_unread() {
   out_.clear();
+  device_.unread_B = 0;
+}
+
+void EmulatedLine::client_gone() {
+  forget_unread();
   device_.hang_up();
 }
 

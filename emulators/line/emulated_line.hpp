@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <exception>
@@ -25,6 +26,8 @@ class EmulatedDevice {
   static constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
 
   virtual ~EmulatedDevice() = default;
+
+  std::size_t unread_B = 0;  ///< of what it said, by its line's count
 
   /// Takes what came and gives what it says, each to be sent by one write.
   virtual std::vector<std::string> take(std::string_view bytes, std::int64_t now_ns) = 0;
@@ -70,6 +73,7 @@ class EmulatedLine {
   void receive();
   void say(std::vector<std::string> messages);
   void send();
+  void forget_unread();
   void wait_for_events(std::unique_lock<std::mutex>& lock);
   void client_gone();
   void wake() const;

@@ -16,7 +16,7 @@ class Emulator {
  public:
   /// Throws std::runtime_error naming what the system refuses.
   template <class... Of>
-  explicit Emulator(Of&&... of) : board_(std::forward<Of>(of)...), line_(Board::open_line(), board_) {}
+  explicit Emulator(Of&&... of) : board_(std::forward<Of>(of)...), line_(board_.open_line(), board_) {}
 
   /// For the port in the settings.
   const std::string& address() const { return line_.address(); }

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "emulators/line/emulator.hpp"
+#include "emulators/scip/emulated_playback.hpp"
+#include "emulators/scip/emulated_scanner.hpp"
 #include "kicking/lob/scan.hpp"
 
 namespace trivela::hal::scip {
@@ -22,52 +25,38 @@ struct EmulatorConfig {
   kicking::lob::ScanGeometry geometry{};
   int first_step = 0;                ///< AMIN, the step of beam 0
   std::uint32_t first_stamp_ms = 0;  ///< its clock when it starts, 24 bit
-  bool paced = true;                 ///< a scan leaves when its last beam is measured; false: as fast as they are taken
 };
 
-/// The next scan to play: its ranges, and its t_ns for the distance to the one before. None: no more, the emulator goes
-/// on answering and sends no scans. Called by the emulator's thread, and only while somebody measures; must not throw.
-using ScanSource = std::function<std::optional<kicking::lob::Scan>()>;
-
-/// A scanner that is not there: speaks the device's side of SCIP 2.0, with a thread of its own. One client at a time,
-/// several one after the other. A scan leaves no earlier than it was measured, and its time stamp is the emulator's own
-/// clock, which runs from the start on.
-class Emulator {
+/// The device's side of SCIP 2.0 on a line. A scan leaves when its last beam is measured, and its time stamp is the
+/// device's own clock, which runs from the start on.
+class EmulatedRangeFinder : public EmulatedDevice {
  public:
-  /// Starts it. Throws std::runtime_error naming what the system refuses, and for a geometry that SCIP cannot say.
-  Emulator(const EmulatorConfig& config, ScanSource source);
-  /// Hangs up and waits for its thread.
-  ~Emulator();
-  Emulator(const Emulator&) = delete;
-  Emulator& operator=(const Emulator&) = delete;
+  /// `source` is called by the line's thread. Throws std::runtime_error for a geometry that SCIP cannot say.
+  EmulatedRangeFinder(const EmulatorConfig& config, ScanSource source);
 
-  /// For open_range_finder(): a path that stays the same over pulled cables, or "tcp://127.0.0.1:PORT".
-  const std::string& address() const;
+  /// Its end of a line. Throws std::runtime_error naming what the system refuses.
+  std::unique_ptr<EmulatedSocket> open_line() const;
 
-  /// The line is cut: clients see it hung up, and nobody can open it. When it returns, it is cut.
-  void pull_cable();
-  /// It can be opened again. When it returns, it can.
-  void plug_cable();
-
-  /// One sum of each of the next `scans` scans is wrong.
-  void corrupt_sums(int scans);
-  /// Each of the next `scans` scans loses some bytes of its middle, a line's end among them.
-  void tear_lines(int scans);
-  /// The next `scans` scans are measured and not sent.
-  void skip_scans(int scans);
-  /// The next `replies` replies, scans among them, have this status of two characters and no data.
-  void answer_with(const std::string& status, int replies);
-  /// Says nothing from now on, or again. The line stays open.
-  void be_silent(bool silent);
+  std::vector<std::string> take(std::string_view bytes, std::int64_t now_ns) override;
+  std::int64_t next_ns() const override;
+  std::vector<std::string> tick(std::int64_t now_ns) override;
+  void hang_up() override;
 
   /// The laser is on, as far as clients commanded.
-  bool laser_on() const;
-  /// Scans that left so far, damaged ones among them.
-  std::uint64_t scans_sent() const;
+  bool laser_on() const { return scanner_.laser_on(); }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void note_measuring(std::int64_t now_ns);
+
+  EmulatedPort port_;
+  std::uint16_t tcp_port_;
+  EmulatedScanner scanner_;
+  EmulatedPlayback playback_;
+  bool was_measuring_ = false;
+  std::string request_;  // so far
 };
+
+/// A scanner that is not there. Its address is for open_range_finder().
+using Emulator = hal::Emulator<EmulatedRangeFinder>;
 
 }  // namespace trivela::hal::scip

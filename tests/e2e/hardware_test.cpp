@@ -152,7 +152,7 @@ TEST_F(Hardware, EverythingThatTheConfigurationOpensHasItsRowAndItsValue) {
   hal::cia402::Emulator drives{std::uint8_t{3}};
   hal::mti::Emulator gyro;
   gyro.with_board([](hal::mti::EmulatedMti& mti) { mti.rate_radps = 1.25; });
-  const hal::scip::Emulator scanner{{}, [t_ns = std::int64_t{0}]() mutable {
+  const hal::scip::Emulator scanner{hal::scip::EmulatorConfig{}, [t_ns = std::int64_t{0}]() mutable {
                                       t_ns += 25'000'000;
                                       return kicking::lob::Scan{t_ns, std::vector<std::uint32_t>(1081, 2000)};
                                     }};

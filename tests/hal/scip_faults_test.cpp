@@ -11,6 +11,7 @@ namespace trivela::hal::scip {
 namespace {
 
 using tests::Clock;
+using tests::FaultyScanner;
 using tests::milliseconds;
 using tests::number_of;
 using tests::ScipLink;
@@ -35,10 +36,16 @@ void expect_counted(ScipLink& link, std::uint64_t LinkCounters::*counter, std::u
   EXPECT_EQ(link.finder().counters().*counter, value);
 }
 
+// The next `replies` have this status and no data.
+void refuse(ScipLink& link, const std::string& status, int replies) {
+  link.emulator().set(&FaultyScanner::status, status);
+  link.emulator().set(&FaultyScanner::statuses, replies);
+}
+
 TEST_P(ScipFaultsOn, AWrongSumCostsOneScan) {
   ScipLink link{config()};
   link.next();
-  link.emulator().corrupt_sums(3);
+  link.emulator().set(&FaultyScanner::sums_to_corrupt, 3);
   expect_counted(link, &LinkCounters::wrong_sums, 3);
   EXPECT_EQ(link.finder().counters().reconnects, 0U);
   EXPECT_EQ(link.finder().counters().torn_lines, 0U);
@@ -48,7 +55,7 @@ TEST_P(ScipFaultsOn, AWrongSumCostsOneScan) {
 TEST_P(ScipFaultsOn, ATornLineCostsOneScan) {
   ScipLink link{config()};
   link.next();
-  link.emulator().tear_lines(3);
+  link.emulator().set(&FaultyScanner::lines_to_tear, 3);
   expect_counted(link, &LinkCounters::torn_lines, 3);
   EXPECT_EQ(link.finder().counters().reconnects, 0U);
   EXPECT_EQ(link.finder().counters().wrong_sums, 0U);
@@ -58,9 +65,9 @@ TEST_P(ScipFaultsOn, ATornLineCostsOneScan) {
 TEST_P(ScipFaultsOn, DamageCostsOneScanWhenAskedOneByOne) {
   ScipLink link{config(), Asking::kOneByOne};
   link.next();
-  link.emulator().corrupt_sums(2);
+  link.emulator().set(&FaultyScanner::sums_to_corrupt, 2);
   expect_counted(link, &LinkCounters::wrong_sums, 2);
-  link.emulator().tear_lines(2);
+  link.emulator().set(&FaultyScanner::lines_to_tear, 2);
   expect_counted(link, &LinkCounters::torn_lines, 2);
   EXPECT_EQ(link.finder().counters().reconnects, 0U);
 }
@@ -70,7 +77,7 @@ TEST_P(ScipFaultsOn, AGapBetweenTheStampsIsLostScans) {
   slow.geometry = {};
   ScipLink link{slow};
   const auto before = number_of(link.next());
-  link.emulator().skip_scans(4);
+  link.emulator().set(&FaultyScanner::scans_to_skip, 4);
   auto scan = link.next();
   while (number_of(scan) < before + 5) scan = link.next();
   EXPECT_EQ(number_of(scan) + 1 - link.finder().counters().scans, 4U);
@@ -81,7 +88,7 @@ TEST_P(ScipFaultsOn, AStatusErrorIsCountedAndScansGoOn) {
   for (const Asking asking : {Asking::kContinuous, Asking::kOneByOne}) {
     ScipLink link{config(), asking};
     link.next();
-    link.emulator().answer_with("21", 2);
+    refuse(link, "21", 2);
     expect_counted(link, &LinkCounters::error_replies, 2);
     EXPECT_EQ(link.finder().counters().reconnects, 0U);
     EXPECT_EQ(link.finder().status(), "measuring");
@@ -90,7 +97,7 @@ TEST_P(ScipFaultsOn, AStatusErrorIsCountedAndScansGoOn) {
 
 TEST_P(ScipFaultsOn, AScannerThatRefusesAtTheStartIsAskedAgain) {
   ScipLink link{config()};
-  link.emulator().answer_with("0A", 4);  // QT, RS, SCIP2.0, VV
+  refuse(link, "0A", 4);  // QT, RS, SCIP2.0, VV
   link.next();
   EXPECT_EQ(link.finder().counters().error_replies, 3U);  // whatever a scanner says to SCIP2.0 is right
   EXPECT_EQ(link.finder().counters().reconnects, 1U);
@@ -100,12 +107,12 @@ TEST_P(ScipFaultsOn, APulledCableShowsWithinASecondAndThePluggedOneMeasuresAgain
   ScipLink link{config()};
   for (std::uint64_t times = 1; times <= 3; ++times) {
     link.next();
-    link.emulator().pull_cable();
+    link.emulator().line().pull();
     EXPECT_LE(link.until_down(), milliseconds(1000));
     EXPECT_NE(link.finder().status(), "measuring");
     for (int i = 0; i < 5; ++i) EXPECT_FALSE(link.read(milliseconds(100)));
     EXPECT_EQ(link.finder().status().find("no device " + link.emulator().address()), 0U) << link.finder().status();
-    link.emulator().plug_cable();
+    link.emulator().line().plug();
     link.next();
     EXPECT_TRUE(link.finder().up());
     EXPECT_EQ(link.finder().counters().reconnects, times);
@@ -115,9 +122,9 @@ TEST_P(ScipFaultsOn, APulledCableShowsWithinASecondAndThePluggedOneMeasuresAgain
 TEST_P(ScipFaultsOn, ACableThatIsPluggedLateIsFound) {
   EmulatorConfig emulated = config();
   ScipLink link{emulated};
-  link.emulator().pull_cable();
+  link.emulator().line().pull();
   EXPECT_FALSE(link.finder().connected(milliseconds(300)));
-  link.emulator().plug_cable();
+  link.emulator().line().plug();
   link.next();
   EXPECT_EQ(link.finder().counters().reconnects, 0U);
 }
@@ -127,12 +134,12 @@ TEST_P(ScipFaultsOn, SilenceShowsWithinASecondAndEndsWithTheNextWord) {
     ScipLink link{config(), asking};
     link.next();
     const auto before = link.finder().counters().time_outs;
-    link.emulator().be_silent(true);
+    link.emulator().set(&FaultyScanner::silent, true);
     EXPECT_LE(link.until_down(), milliseconds(1000));
     EXPECT_EQ(link.finder().status(), link.emulator().address() + ": no scan for 0.5 s");
     EXPECT_EQ(link.finder().counters().time_outs, before + 1);
     EXPECT_TRUE(link.until([&] { return link.read(), link.finder().counters().time_outs >= before + 4; }));
-    link.emulator().be_silent(false);
+    link.emulator().set(&FaultyScanner::silent, false);
     link.next();
     EXPECT_GE(link.finder().counters().reconnects, 1U);
     EXPECT_TRUE(link.finder().up());

@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "emulators/scip/emulator.hpp"
 #include "hal/line/line.hpp"
 #include "hal/open.hpp"
 #include "hal/scip/scip_range_finder.hpp"
+#include "tests/hal/faulty_scanner.hpp"
 
 namespace trivela::tests {
 
@@ -58,7 +58,7 @@ class ScipLink {
         emulator_(config, [this] { return std::optional{numbered_scan(played_++, geometry_)}; }),
         finder_(std::make_unique<hal::scip::ScipRangeFinder>(line_to(emulator_.address()), asking)) {}
 
-  hal::scip::Emulator& emulator() { return emulator_; }
+  FaultyEmulator& emulator() { return emulator_; }
   hal::RangeFinder& finder() { return *finder_; }
   void close_finder() { finder_.reset(); }
   void open_finder() { finder_ = hal::open_range_finder(emulator_.address()); }
@@ -96,7 +96,7 @@ class ScipLink {
  private:
   kicking::lob::ScanGeometry geometry_;
   std::uint32_t played_ = 0;
-  hal::scip::Emulator emulator_;
+  FaultyEmulator emulator_;
   std::unique_ptr<hal::RangeFinder> finder_;
 };
 

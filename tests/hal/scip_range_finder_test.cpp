@@ -129,15 +129,6 @@ TEST(ScipRangeFinder, AStreamThatAnEarlierClientLeftIsEndedFirst) {
   EXPECT_EQ(counters.torn_lines + counters.wrong_sums + counters.reconnects, 0U);
 }
 
-TEST(ScipRangeFinder, AFastSourceIsPlayedWholeWhenNotPaced) {
-  EmulatorConfig config;
-  config.paced = false;
-  config.geometry = tests::fast_geometry();
-  ScipLink link{config};
-  for (std::uint32_t n = 0; n < 500; ++n) ASSERT_EQ(number_of(link.next()), n);
-  EXPECT_EQ(link.finder().counters().lost_scans, 0U);
-}
-
 TEST(ScipRangeFinder, NoDeviceIsSaidAndNoCallHangs) {
   auto finder = open_range_finder("/dev/no-such-scanner");
   for (const int timeout_ms : {0, 50, 5000}) {

@@ -1,5 +1,8 @@
 #include "nodes/scan_recorder/scan_recorder_node.hpp"
 
+#include <fstream>
+#include <memory>
+
 #include "emulators/scip/emulator.hpp"
 #include "hal/bus/sim_range_finder.hpp"
 #include "hal/open.hpp"
@@ -27,6 +30,20 @@ class ScanRecorderNodeTest : public NodeTest {
     running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
     scans.expect_reader();
     receipts.expect_reader();
+  }
+  /// Starts with a scanner that is a program, and waits until the record has begun.
+  std::unique_ptr<hal::scip::Emulator> start_with_program() {
+    Received<msg::DeviceEmulated> emulated{participant};
+    const auto scan = [t_ns = std::int64_t{0}]() mutable {
+      t_ns += 25'000'000;
+      return kicking::lob::Scan{t_ns, std::vector<std::uint32_t>(1081, 2000)};
+    };
+    auto scanner = std::make_unique<hal::scip::Emulator>(hal::scip::EmulatorConfig{}, scan);
+    context.settings.scan_recorder.device = config::ScipDevice{.address = scanner->address(), .host = {}};
+    node.emplace(context, hal::open_range_finder(scanner->address()));
+    running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
+    EXPECT_EQ(emulated.nth(1).part, msg::PART_RANGE_FINDER);
+    return scanner;
   }
   void scan() {
     msg::SimScan said{};
@@ -91,31 +108,15 @@ TEST_F(ScanRecorderNodeTest, RecordsScansAndTheSetPointOfEveryKickThatWasAccepte
 }
 
 TEST_F(ScanRecorderNodeTest, SaysThatTheScannerIsAProgramAndTheRecordDoesToo) {
-  const hal::scip::Emulator scanner{{}, [t_ns = std::int64_t{0}]() mutable {
-                                      t_ns += 25'000'000;
-                                      return kicking::lob::Scan{t_ns, std::vector<std::uint32_t>(1081, 2000)};
-                                    }};
-  context.settings.scan_recorder.device = config::ScipDevice{.address = scanner.address(), .host = {}};
-  Received<msg::DeviceEmulated> emulated{participant};
-  node.emplace(context, hal::open_range_finder(scanner.address()));
-  running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
-  EXPECT_EQ(emulated.nth(1).part, msg::PART_RANGE_FINDER);
+  const auto scanner = start_with_program();
   const ScanReader record = read();
   EXPECT_TRUE(record.session().simulated);
-  EXPECT_EQ(record.session().source, scanner.address());
+  EXPECT_EQ(record.session().source, scanner->address());
 }
 
 TEST_F(ScanRecorderNodeTest, ARecordOfBeforeStaysAndTheNextHasANumber) {
   std::ofstream(folder / "scans.db") << "of before";
-  const hal::scip::Emulator scanner{{}, [t_ns = std::int64_t{0}]() mutable {
-                                      t_ns += 25'000'000;
-                                      return kicking::lob::Scan{t_ns, std::vector<std::uint32_t>(1081, 2000)};
-                                    }};
-  context.settings.scan_recorder.device = config::ScipDevice{.address = scanner.address(), .host = {}};
-  Received<msg::DeviceEmulated> emulated{participant};
-  node.emplace(context, hal::open_range_finder(scanner.address()));
-  running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
-  EXPECT_EQ(emulated.nth(1).part, msg::PART_RANGE_FINDER);
+  const auto scanner = start_with_program();
   running.reset();
   node->finish();
   EXPECT_EQ(std::filesystem::file_size(folder / "scans.db"), 9u);

@@ -2,11 +2,11 @@
 
 #include <atomic>
 
-#include "emulators/scip/emulator.hpp"
 #include "hal/open.hpp"
 #include "pages/lob/live_scene.hpp"
 #include "pages/lob/scene.hpp"
 #include "pages/serve/page_server.hpp"
+#include "tests/hal/faulty_scanner.hpp"
 #include "tests/pages/recorded_lobs.hpp"
 #include "tests/pages/viewer.hpp"
 
@@ -47,7 +47,7 @@ class LivePage : public testing::Test {
   CalibrationPlan plan_;
   RecordedLobs record_{{{15, 5.97}, {15, 6.05}, {20, 7.33}}};
   std::atomic<std::size_t> next_ = 0;  // also of the emulator's thread
-  hal::scip::Emulator emulator_{config(), [this] { return next_scan(); }};
+  tests::FaultyEmulator emulator_{config(), [this] { return next_scan(); }};
   Broadcast broadcast_{lob_channels()};
   LiveScene scene_{hal::open_range_finder(emulator_.address()), options(), broadcast_};
   PageServer server_{lob_page(scene_), broadcast_, {}};
@@ -121,9 +121,9 @@ TEST_F(LivePage, LooksBackOverTheRecordWhileItGoesOn) {
 
 TEST_F(LivePage, ShowsAPulledCableAndRecovers) {
   ASSERT_TRUE(viewer_.wait([&] { return !viewer_.status.is_null() && viewer_.status["link"]["up"] == true; }));
-  emulator_.pull_cable();
+  emulator_.line().pull();
   ASSERT_TRUE(viewer_.wait([&] { return viewer_.status["link"]["up"] == false; }));
-  emulator_.plug_cable();
+  emulator_.line().plug();
   next_ = 0;
   ASSERT_TRUE(viewer_.wait([&] { return viewer_.status["link"]["up"] == true; }));
   EXPECT_GE(state()["status"]["link"]["reconnects"], 1);
@@ -131,9 +131,9 @@ TEST_F(LivePage, ShowsAPulledCableAndRecovers) {
 
 TEST_F(LivePage, CountsDamageOnTheLineAndGoesOn) {
   ASSERT_TRUE(viewer_.wait([&] { return !viewer_.status.is_null() && viewer_.status["link"]["up"] == true; }));
-  emulator_.corrupt_sums(3);
+  emulator_.set(&tests::FaultyScanner::sums_to_corrupt, 3);
   ASSERT_TRUE(viewer_.wait([&] { return viewer_.status["link"]["wrong_sums"] == 3; }));
-  emulator_.skip_scans(2);
+  emulator_.set(&tests::FaultyScanner::scans_to_skip, 2);
   ASSERT_TRUE(viewer_.wait([&] { return viewer_.status["link"]["lost_scans"] == 5; }));
   const std::size_t frames = state()["status"]["scans"].get<std::size_t>();
   ASSERT_TRUE(viewer_.wait([&] { return viewer_.frames.back() > frames; })) << "it goes on";
