@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -48,20 +47,6 @@ std::string as_one_line(std::string text) {
   return line;
 }
 
-[[noreturn]] void become_program(const std::vector<std::string>& words, int out, int err) {
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  dup2(out, STDOUT_FILENO);
-  dup2(err, STDERR_FILENO);
-  std::vector<char*> argv;
-  argv.reserve(words.size() + 1);
-  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
-  execvp(argv.front(), argv.data());
-  _exit(127);
-}
-
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
@@ -76,28 +61,8 @@ TemporaryFile temporary_file() {
 std::string content_of(std::FILE* file) {
   std::string text;
   std::array<char, 4096> piece{};
-  std::rewind(file);
   for (std::size_t n = 0; (n = std::fread(piece.data(), 1, piece.size(), file)) > 0;) text.append(piece.data(), n);
   return text;
-}
-
-/// Its output goes to files, which never fill up while nobody reads.
-Ran run_program(const std::vector<std::string>& words) {
-  const TemporaryFile out = temporary_file(), err = temporary_file();
-  const pid_t id = ::fork();
-  if (id < 0) throw std::runtime_error{fmt::format("cannot start {}: {}", words.front(), std::strerror(errno))};
-  if (id == 0) become_program(words, ::fileno(out.get()), ::fileno(err.get()));
-  int status = 0;
-  while (::waitpid(id, &status, 0) < 0 && errno == EINTR) {
-  }
-  Ran ran;
-  ran.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  ran.output = content_of(out.get());
-  ran.said = as_one_line(content_of(err.get()));
-  if (!ran.succeeded && ran.said.empty())
-    ran.said = WIFEXITED(status) ? fmt::format("{} ended with exit code {}", words.front(), WEXITSTATUS(status))
-                                 : fmt::format("{} was ended by signal {}", words.front(), WTERMSIG(status));
-  return ran;
 }
 
 /// A word as a shell takes it back.
@@ -105,6 +70,24 @@ std::string shell_quoted(const std::string& word) {
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+/// Its standard error goes to a file, which never fills up while nobody reads.
+Ran run_program(const std::vector<std::string>& words) {
+  const TemporaryFile err = temporary_file();
+  std::string command = fmt::format("command -v {} >/dev/null || exit 127; exec", shell_quoted(words.front()));
+  for (const std::string& word : words) command += ' ' + shell_quoted(word);
+  std::FILE* const out = ::popen(fmt::format("{} 2>/dev/fd/{}", command, ::fileno(err.get())).c_str(), "re");
+  if (out == nullptr) throw std::runtime_error{fmt::format("cannot start {}: {}", words.front(), std::strerror(errno))};
+  Ran ran;
+  ran.output = content_of(out);
+  const int status = ::pclose(out);
+  ran.succeeded = status == 0;
+  ran.said = as_one_line(content_of(err.get()));
+  if (!ran.succeeded && ran.said.empty())
+    ran.said = WIFEXITED(status) ? fmt::format("{} ended with exit code {}", words.front(), WEXITSTATUS(status))
+                                 : fmt::format("{} was ended by signal {}", words.front(), WTERMSIG(status));
+  return ran;
 }
 
 /// Runs a shell's command on a host by `ssh` without asking anybody for a password.
