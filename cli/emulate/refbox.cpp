@@ -53,8 +53,8 @@ class SingleKeys {
 
 std::string in_words(const box::BoxAct& act) {
   if (const auto* const fault = std::get_if<box::BoxFault>(&act)) {
-    for (const auto& [name, known] : box::kBoxFaults) {
-      if (known == *fault) return fmt::format("fault {}", name);
+    for (const auto& known : box::kBoxFaults) {
+      if (known.fault == *fault) return fmt::format("fault {}", known.name);
     }
   }
   const box::BoxCommand& said = std::get<box::BoxCommand>(act);

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -37,17 +36,25 @@ enum class BoxFault : std::uint8_t {
   kHeal       ///< ends silence and deafness
 };
 
-inline constexpr std::array<std::pair<std::string_view, BoxFault>, 11> kBoxFaults{{{"merge", BoxFault::kMerge},
-                                                                                   {"split", BoxFault::kSplit},
-                                                                                   {"unknown", BoxFault::kUnknown},
-                                                                                   {"broken", BoxFault::kBroken},
-                                                                                   {"status", BoxFault::kStatus},
-                                                                                   {"overlong", BoxFault::kOverlong},
-                                                                                   {"close", BoxFault::kClose},
-                                                                                   {"reset", BoxFault::kReset},
-                                                                                   {"silent", BoxFault::kSilent},
-                                                                                   {"deaf", BoxFault::kDeaf},
-                                                                                   {"heal", BoxFault::kHeal}}};
+/// By which name a script asks for a fault, and by which key a person.
+struct BoxFaultWord {
+  std::string_view name;
+  char key;
+  BoxFault fault;
+};
+inline constexpr std::array<BoxFaultWord, 11> kBoxFaults{{
+    {"merge", 'm', BoxFault::kMerge},
+    {"split", 'l', BoxFault::kSplit},
+    {"unknown", 'i', BoxFault::kUnknown},
+    {"broken", 'j', BoxFault::kBroken},
+    {"status", 'n', BoxFault::kStatus},
+    {"overlong", 'v', BoxFault::kOverlong},
+    {"close", 'x', BoxFault::kClose},
+    {"reset", 'X', BoxFault::kReset},
+    {"silent", 'w', BoxFault::kSilent},
+    {"deaf", 'q', BoxFault::kDeaf},
+    {"heal", 'H', BoxFault::kHeal},
+}};
 
 using BoxAct = std::variant<BoxCommand, BoxFault>;
 

@@ -60,8 +60,8 @@ class ScriptLine {
  private:
   BoxFault fault() const {
     if (words_.size() != 3) fail("wants the name of one fault", words_[1]);
-    for (const auto& [known, fault] : kBoxFaults) {
-      if (known == words_[2]) return fault;
+    for (const BoxFaultWord& known : kBoxFaults) {
+      if (known.name == words_[2]) return known.fault;
     }
     fail("is no fault", words_[2]);
   }

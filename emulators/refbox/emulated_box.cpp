@@ -15,6 +15,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "hal/line/descriptor.hpp"
@@ -209,7 +210,7 @@ struct EmulatedBox::State {
   }
 
   void suffer(BoxFault fault) {
-    using namespace std::string_literals;
+    const auto say_object = [this](std::string text) { say(text.append(1, '\0')); };
     switch (fault) {
       case BoxFault::kMerge:
         merging = 2;
@@ -218,13 +219,13 @@ struct EmulatedBox::State {
         splitting = true;
         return;
       case BoxFault::kUnknown:
-        return say(R"({"command":"DANCE","targetTeam":""})"s + '\0');
+        return say_object(R"({"command":"DANCE","targetTeam":""})");
       case BoxFault::kBroken:
-        return say(R"({"command":"START",)"s + '\0');
+        return say_object(R"({"command":"START",)");
       case BoxFault::kStatus:
-        return say(R"({"status":"connected"})"s + '\0');
+        return say_object(R"({"status":"connected"})");
       case BoxFault::kOverlong:
-        return say(R"({"command":")" + std::string(200'000, 'x') + R"("})" + '\0');
+        return say_object(R"({"command":")" + std::string(200'000, 'x') + R"("})");
       case BoxFault::kClose:
       case BoxFault::kReset:
         return drop(fault == BoxFault::kReset);

@@ -35,8 +35,8 @@ TEST(BoxScript, IsALineAnAct) {
 
 TEST(BoxScript, KnowsEveryCommandAndEveryFault) {
   for (const std::string_view word : kCommandNames) EXPECT_EQ(refusal("0 " + std::string(word)), "") << word;
-  for (const auto& [word, fault] : kBoxFaults)
-    EXPECT_EQ(std::get<BoxFault>(read_box_script("0 fault " + std::string(word), "s.txt").at(0).act), fault);
+  for (const BoxFaultWord& word : kBoxFaults)
+    EXPECT_EQ(std::get<BoxFault>(read_box_script("0 fault " + std::string(word.name), "s.txt").at(0).act), word.fault);
 }
 
 TEST(BoxScript, WhatIsWrongIsNamedWithFileLineAndValue) {
