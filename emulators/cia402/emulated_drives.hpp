@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "emulators/can/emulated_bus.hpp"
 #include "emulators/cia402/emulated_drive.hpp"
 #include "emulators/line/emulator.hpp"
 
@@ -17,7 +16,7 @@ class EmulatedDrives final : public EmulatedDevice {
   explicit EmulatedDrives(std::uint8_t count);
 
   /// Its end of a line. Throws std::runtime_error naming what the system refuses.
-  static std::unique_ptr<EmulatedSocket> open_line() { return can::emulated_bus("cia402", "can"); }
+  static std::unique_ptr<EmulatedSocket> open_line() { return emulated_bus("cia402", "can"); }
 
   std::vector<std::string> take(std::string_view bytes, std::int64_t now_ns) override;
   std::vector<std::string> tick(std::int64_t now_ns) override;

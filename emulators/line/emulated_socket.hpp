@@ -31,6 +31,9 @@ class EmulatedSocket {
 /// files. Throws as plug(), naming the emulator.
 std::unique_ptr<EmulatedSocket> emulated_terminal(const std::string& emulator, const std::string& device);
 
+/// The other end of the socket that can_line() opens by its path: under such a path, one client at a time.
+std::unique_ptr<EmulatedSocket> emulated_bus(const std::string& emulator, const std::string& device);
+
 /// A port of the loopback interface, 0: any; it stays the same over pull() and plug(). Throws as plug(), naming the
 /// emulator.
 std::unique_ptr<EmulatedSocket> emulated_tcp(const std::string& emulator, std::uint16_t port);

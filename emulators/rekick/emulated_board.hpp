@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "emulators/can/emulated_bus.hpp"
 #include "emulators/line/emulated_line.hpp"
 #include "emulators/line/emulator.hpp"
 #include "hal/rekick/messages.hpp"
@@ -34,7 +33,7 @@ class EmulatedBoard final : public EmulatedDevice {
   };
 
   /// Its end of a line. Throws std::runtime_error naming what the system refuses.
-  static std::unique_ptr<EmulatedSocket> open_line() { return can::emulated_bus("rekick", "can"); }
+  static std::unique_ptr<EmulatedSocket> open_line() { return emulated_bus("rekick", "can"); }
 
   std::vector<std::string> take(std::string_view bytes, std::int64_t now_ns) override;
   std::vector<std::string> tick(std::int64_t now_ns) override;
