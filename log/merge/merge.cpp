@@ -1,5 +1,6 @@
 #include "log/merge/merge.hpp"
 
+#include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -168,10 +169,8 @@ class Merging {
                         [&](std::span<const Value> row) {
                           if (sha256(std::get<std::string>(row[1])) != std::get<std::string>(row[0])) return;
                           insert.reset();
-                          insert.bind(1, std::get<std::string>(row[0]));
-                          insert.bind(2, std::get<std::string>(row[1]));
-                          insert.bind(3, std::get<std::int64_t>(row[2]));
-                          insert.bind(4, std::get<std::int64_t>(row[3]));
+                          SQLite::bind(insert, std::get<std::string>(row[0]), std::get<std::string>(row[1]),
+                                       std::get<std::int64_t>(row[2]), std::get<std::int64_t>(row[3]));
                           if (insert.tryExecuteStep() != SQLITE_DONE) throw WriteFailed{database.getErrorMsg()};
                         });
   }

@@ -1,5 +1,6 @@
 #include "log/merge/merge_clocks.hpp"
 
+#include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -95,14 +96,10 @@ Alignment write_clocks(SQLite::Database& database, const std::vector<MergedSessi
                            "reference_uuid) VALUES (?, ?, ?, ?, ?, ?)");
   for (const AlignedSession& session : alignment.sessions) {
     for (const ClockSegment& segment : session.segments) {
-      insert.reset();
-      insert.bind(1, session.session_id);
-      insert.bind(2, segment.from_t_ns);
-      insert.bind(3, segment.utc_offset_ns);
-      insert.bind(4, segment.rate);
-      insert.bind(5, segment.error_ns);
-      insert.bind(6, alignment.reference_uuid);
+      SQLite::bind(insert, session.session_id, segment.from_t_ns, segment.utc_offset_ns, segment.rate, segment.error_ns,
+                   alignment.reference_uuid);
       insert.exec();
+      insert.reset();
     }
   }
   return alignment;

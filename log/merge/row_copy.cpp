@@ -91,26 +91,21 @@ std::int64_t copy_whole(SQLite::Database& database, const std::filesystem::path&
 }
 
 std::optional<std::int64_t> rows_of_whole(SQLite::Database& database, std::int64_t session_id) {
-  SQLite::Statement digest(database, "SELECT row_count FROM main.digests WHERE session_id = ?");
-  digest.bind(1, session_id);
-  if (!digest.executeStep()) return std::nullopt;
-  return digest.getColumn(0).getInt64();
+  const SQLite::Column rows =
+      database.execAndGet(fmt::format("SELECT (SELECT row_count FROM main.digests WHERE session_id = {})", session_id));
+  return rows.isNull() ? std::nullopt : std::optional{rows.getInt64()};
 }
 
 bool has_tallies(SQLite::Database& database, std::int64_t session_id) {
-  SQLite::Statement tallied(database, "SELECT 1 FROM main.tallied_sessions WHERE session_id = ?");
-  tallied.bind(1, session_id);
-  return tallied.executeStep();
+  constexpr const char* kAsked = "SELECT EXISTS (SELECT 1 FROM main.tallied_sessions WHERE session_id = {})";
+  return database.execAndGet(fmt::format(kAsked, session_id)).getInt() != 0;
 }
 
 std::int64_t counted_rows(SQLite::Database& database, std::int64_t session_id) {
+  constexpr const char* kAsked = "SELECT count(*) FROM main.{} WHERE session_id = {}";
   std::int64_t rows = 0;
-  for (const DigestedTable& table : digested_tables()) {
-    SQLite::Statement count(database, fmt::format("SELECT count(*) FROM main.{} WHERE session_id = ?", table.name));
-    count.bind(1, session_id);
-    count.executeStep();
-    rows += count.getColumn(0).getInt64();
-  }
+  for (const DigestedTable& table : digested_tables())
+    rows += database.execAndGet(fmt::format(kAsked, table.name, session_id)).getInt64();
   return rows;
 }
 
