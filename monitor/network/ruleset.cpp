@@ -1,5 +1,5 @@
-#include <algorithm>
-#include <charconv>
+#include <istream>
+#include <regex>
 #include <sstream>
 
 #include "monitor/network/findings.hpp"
@@ -11,21 +11,12 @@ bool has(std::string_view text, std::string_view part) { return text.find(part) 
 
 // "7400", "7400-7649", "{ 53, 7400-7649 }" after "dport ": whether one of the numbers or ranges touches the ports; with
 // `whole` whether one covers them all.
-bool names_ports(std::string_view rule, Ports ports, bool whole) {
-  std::string_view rest = rule.substr(rule.find("dport ") + 6);
-  rest = rest.substr(0, rest.starts_with('{') ? rest.find('}') : rest.find(' '));
-  const char* at = rest.data();
-  const char* const end = rest.data() + rest.size();
-  while (at < end) {
-    unsigned first = 0;
-    const auto read = std::from_chars(at, end, first);
-    if (read.ec != std::errc{}) {
-      ++at;
-      continue;
-    }
-    at = read.ptr;
-    unsigned last = first;
-    if (at < end && *at == '-') at = std::from_chars(at + 1, end, last).ptr;
+bool names_ports(const std::string& rule, Ports ports, bool whole) {
+  static const std::regex kNamed{R"re(dport (\{[^}]*|\S*))re"}, kRange{R"re((\d+)(?:-(\d+))?)re"};
+  std::smatch named;
+  std::regex_search(rule, named, kNamed);
+  for (std::sregex_iterator at{named[1].first, named[1].second, kRange}, end; at != end; ++at) {
+    const unsigned long first = std::stoul((*at)[1]), last = (*at)[2].matched ? std::stoul((*at)[2]) : first;
     if (whole ? first <= ports.first && last >= ports.last : first <= ports.last && last >= ports.first) return true;
   }
   return false;
@@ -41,11 +32,6 @@ bool accepts(const std::string& rule, Ports ports) {
   return has(rule, "accept") && has(rule, "udp dport ") && names_ports(rule, ports, true);
 }
 
-std::string trimmed(const std::string& line) {
-  const auto begin = line.find_first_not_of(" \t");
-  return begin == std::string::npos ? "" : line.substr(begin);
-}
-
 }  // namespace
 
 std::vector<std::string> swallowing_rules(std::string_view ruleset, Ports ports) {
@@ -53,8 +39,7 @@ std::vector<std::string> swallowing_rules(std::string_view ruleset, Ports ports)
   std::istringstream lines{std::string{ruleset}};
   bool accepted = false;  // by a rule of this chain before
   std::string policy;     // of this chain, if it drops
-  for (std::string line; std::getline(lines, line);) {
-    const std::string rule = trimmed(line);
+  for (std::string rule; std::getline(lines >> std::ws, rule);) {
     if (rule.starts_with("chain ")) {
       accepted = false;
       policy.clear();
