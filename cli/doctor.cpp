@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -35,15 +36,8 @@ struct DoctorFlags {
 };
 
 const char* verdict_text(network::Verdict verdict) {
-  switch (verdict) {
-    case network::Verdict::kOk:
-      return "ok";
-    case network::Verdict::kWarn:
-      return "warn";
-    case network::Verdict::kBad:
-      return "BAD";
-  }
-  return "";
+  constexpr std::array kTexts{"ok", "warn", "BAD"};
+  return kTexts.at(static_cast<std::size_t>(verdict));
 }
 
 void say_findings(const std::vector<network::Finding>& findings) {

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "robot/watch/silence_watch.hpp"
+
 namespace trivela::monitor {
 namespace {
 
 constexpr double kNsPerS = 1e9;
-constexpr double kPeriodsPerDeadline = 3.0;
 constexpr std::size_t kMostSamples = 100'000;  // of a window
 constexpr std::size_t kMostLosses = 10'000;
 
@@ -32,7 +33,7 @@ std::optional<double> quantile(std::vector<double> values, double part) {
 
 std::int64_t StreamStatistics::deadlines_in(std::int64_t ns) const {
   if (period_s_ <= 0.0) return 0;
-  return static_cast<std::int64_t>(static_cast<double>(ns) / (kPeriodsPerDeadline * period_s_ * kNsPerS));
+  return static_cast<std::int64_t>(static_cast<double>(ns) / (robot::kSilentPeriods * period_s_ * kNsPerS));
 }
 
 void StreamStatistics::count(std::uint8_t robot_id, const ReceivedSample& received_sample) {

@@ -1,6 +1,7 @@
 #include "cli/top/live_bus.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
@@ -27,20 +28,16 @@ std::string number(const std::optional<double>& value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "-";
 }
 
-std::string writers_text(const TopicPicture& topic) {
-  std::string text;
-  for (const WriterPicture& writer : topic.writers) {
-    text += (text.empty() ? "" : ", ") + writer.owner;
-    if (topic.profile == "order") text += fmt::format(" strength {}", writer.strength);
-    if (is_gone(writer)) text += " GONE";
-  }
-  return text.empty() ? "nobody" : text;
+std::string joined(const std::vector<std::string>& names) {
+  return names.empty() ? "nobody" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "nobody" : text;
+std::string writers_text(const TopicPicture& topic) {
+  std::vector<std::string> writers;
+  for (const WriterPicture& writer : topic.writers)
+    writers.push_back(writer.owner + (topic.profile == "order" ? fmt::format(" strength {}", writer.strength) : "") +
+                      (is_gone(writer) ? " GONE" : ""));
+  return joined(writers);
 }
 
 std::string stream_line(const TopicPicture& topic, const std::string& robot, const StreamFigures& figures) {
@@ -93,15 +90,8 @@ std::string host_name() {
 }
 
 const char* profile_text(bus::Profile profile) {
-  switch (profile) {
-    case bus::Profile::kState:
-      return "state";
-    case bus::Profile::kOrder:
-      return "order";
-    case bus::Profile::kEvent:
-      return "event";
-  }
-  return "";
+  constexpr std::array kNames{"state", "order", "event"};
+  return kNames.at(static_cast<std::size_t>(profile));
 }
 
 std::int64_t steady_ns() {
@@ -116,17 +106,17 @@ std::string top_table(const BusPicture& picture) {
   std::string text =
       fmt::format("{:<16}{:>5} {:>8} {:>8} {:>9} {:>9} {:>8} {:>7} {:>6}  {}\n", "topic", "robot", "Hz now", "Hz 5 s",
                   "p50 us", "p99 us", "age ms", "lost", "late", "writers -> readers");
-  std::string quiet;
+  std::vector<std::string> quiet;
   for (const TopicPicture& topic : picture.topics) {
     for (const auto& [robot_id, figures] : topic.robots) text += stream_line(topic, std::to_string(robot_id), figures);
     if (!topic.robots.empty()) continue;
     if (topic.writers.empty()) {
-      quiet += (quiet.empty() ? "" : ", ") + topic.topic;
+      quiet.push_back(topic.topic);
     } else {
       text += stream_line(topic, "-", {});
     }
   }
-  if (!quiet.empty()) text += fmt::format("nobody writes: {}\n", quiet);
+  if (!quiet.empty()) text += fmt::format("nobody writes: {}\n", joined(quiet));
   text += fmt::format("\n{:<16}{:>8} {:>9} {:>7}  {}\n", "process", "pid", "memory MB", "CPU %", "host");
   for (const monitor::ProcessPicture& process : picture.processes) text += process_line(process);
   if (picture.processes.empty()) text += "nobody is in the domain\n";

@@ -7,13 +7,13 @@
 
 #include "evaluator/drift/drift_watch.hpp"
 #include "pages/monitor/match_scene.hpp"
+#include "robot/watch/silence_watch.hpp"
 
 namespace trivela::pages {
 namespace {
 
 using Alarms = std::map<std::string, std::string>;
 
-constexpr double kSilentPeriods = 3.0;
 constexpr double kShortestSilence_s = 0.5;         // a page is for eyes, and a machine may be busy
 constexpr std::int64_t kUnarmed_ns = 500'000'000;  // the driver arms a cycle after the referee's word
 constexpr std::size_t kLastKicks = 10;
@@ -46,7 +46,8 @@ void note_streams(const SceneState& state, std::uint8_t id, Alarms& alarms) {
     }
     if (stream.period_s <= 0.0) continue;
     ++periodic;
-    if (figures.silent_for_s > std::max(kSilentPeriods * stream.period_s, kShortestSilence_s)) silent.push_back(topic);
+    if (figures.silent_for_s > std::max(robot::kSilentPeriods * stream.period_s, kShortestSilence_s))
+      silent.push_back(topic);
   }
   if (!state.over) note_silences(id, silent, periodic > 0 && silent.size() == periodic, alarms);
 }

@@ -1,5 +1,6 @@
 #include "pages/monitor/robot_view.hpp"
 
+#include <array>
 #include <bit>
 #include <type_traits>
 
@@ -9,42 +10,31 @@ namespace {
 
 constexpr std::int64_t kDecisionAge_ns = 300'000'000;  // one a cycle, with the ball
 
+/// In the order of msg::DecisionReason.
+constexpr std::array kReasons{
+    "every condition holds",
+    "the referee has stopped the game",
+    "it does not have the ball",
+    "the kicker is not ready",
+    "an order of this possession is on its way",
+    "it still drives or brakes",
+    "it still turns to the target",
+    "it waits to be at rest",
+    "the two segments do not meet",
+    "no set-point reaches the target",
+    "what it knows is too old",
+    "the test drive is through its list",
+    "a kick is too unlikely to be on target",
+    "a later kick promises more",
+    "a goal from the own half would not count",
+};
+static_assert(kReasons.size() == msg::REASON_OWN_HALF + 1);
+
 }  // namespace
 
 const char* words_of(const msg::DecisionReason& reason) {
-  switch (std::bit_cast<std::underlying_type_t<msg::DecisionReason>>(reason)) {  // of another program it may be any
-    case msg::REASON_FIRE:
-      return "every condition holds";
-    case msg::REASON_NOT_PLAYING:
-      return "the referee has stopped the game";
-    case msg::REASON_NO_BALL:
-      return "it does not have the ball";
-    case msg::REASON_KICKER_NOT_READY:
-      return "the kicker is not ready";
-    case msg::REASON_ORDER_PENDING:
-      return "an order of this possession is on its way";
-    case msg::REASON_APPROACHING:
-      return "it still drives or brakes";
-    case msg::REASON_TURNING:
-      return "it still turns to the target";
-    case msg::REASON_SETTLING:
-      return "it waits to be at rest";
-    case msg::REASON_NOT_ALIGNED:
-      return "the two segments do not meet";
-    case msg::REASON_OUT_OF_RANGE:
-      return "no set-point reaches the target";
-    case msg::REASON_STALE_STATE:
-      return "what it knows is too old";
-    case msg::REASON_DRIVE_FINISHED:
-      return "the test drive is through its list";
-    case msg::REASON_UNLIKELY:
-      return "a kick is too unlikely to be on target";
-    case msg::REASON_WAITING:
-      return "a later kick promises more";
-    case msg::REASON_OWN_HALF:
-      return "a goal from the own half would not count";
-  }
-  return "for a reason that this page does not know";
+  const auto number = std::bit_cast<std::underlying_type_t<msg::DecisionReason>>(reason);  // of another program any
+  return number < kReasons.size() ? kReasons[number] : "for a reason that this page does not know";
 }
 
 const msg::KickDecision* recent_fire(const RobotView& robot, std::int64_t now_ns) {

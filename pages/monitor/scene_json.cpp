@@ -1,6 +1,7 @@
 #include "pages/monitor/match_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -115,19 +116,8 @@ Json flight_json(const SceneState& state, std::int64_t now_ns) {
 }
 
 const char* name_of(KickFate fate) {
-  switch (fate) {
-    case KickFate::kUnderWay:
-      return "under way";
-    case KickFate::kRefused:
-      return "refused";
-    case KickFate::kInside:
-      return "inside";
-    case KickFate::kOutside:
-      return "outside";
-    case KickFate::kUnknown:
-      return "unknown";
-  }
-  return "unknown";
+  constexpr std::array kNames{"under way", "refused", "inside", "outside", "unknown"};
+  return kNames.at(static_cast<std::size_t>(fate));
 }
 
 Json kick_json(const KnownKick& kick, const LedgerNow& now) {
