@@ -61,7 +61,7 @@ void add_play_options(CLI::App& verb, StudyFlags& flags) {
   verb.add_option("--with", flags.with,
                   "Results of other runs or shards of this study: nothing of them is played again")
       ->type_name("FILE");
-  add_shard_option(verb, flags.shard, "without --shard and --with their --results the report is of all");
+  add_shard_option(verb, plan.shard, "without --shard and --with their --results the report is of all");
   add_arm_options(verb, flags.base);
 }
 
@@ -84,6 +84,7 @@ void add_arm_options(CLI::App& verb, experiment::ArmBase& base) {
 
 void StudyFlags::require_writable() const {
   if (!csv.empty() && csv == svg) throw UsageError{fmt::format("--csv and --svg are the same file: {}", csv)};
+  const auto& shard = plan.shard;
   check_shard(shard, plan.matches);
   if (shard && results.empty())
     throw UsageError{fmt::format("--shard {}: --results FILE is where its part is kept", shard->text())};

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,7 +16,6 @@
 #include "experiment/run/calibrations.hpp"
 #include "experiment/study/play.hpp"
 #include "experiment/study/report.hpp"
-#include "log/shards/shard.hpp"
 
 namespace trivela::cli {
 
@@ -31,7 +29,6 @@ struct StudyFlags {
   std::string csv, svg;
   std::string results;            ///< file that keeps what was played; empty: none
   std::vector<std::string> with;  ///< results of other runs of this study, or of its shards
-  std::optional<log::Shard> shard;
   bool json = false;
 
   /// Name of the scenario's file and what was changed of it, for the report.

@@ -26,30 +26,24 @@ std::string free_name(const std::string& name) {
 
 }  // namespace
 
-StudyRun::StudyRun(const StudyFlags& flags, const std::string& name, const std::string& arguments, std::size_t arms)
+StudyRun::StudyRun(const StudyFlags& flags, const std::string& name, const std::string& arguments)
     : flags_(flags),
       name_(name),
-      results_(flags.results, all_arguments_of(flags.plan, name, arguments), flags.plan.matches),
-      knows_all_(arms > 0),
-      expected_(static_cast<double>(arms) * log::range_of(flags.shard, flags.plan.matches).size()) {
+      results_(flags.results, all_arguments_of(flags.plan, name, arguments), flags.plan.matches) {
   for (const std::string& file : flags.with) results_.take_over(file);
   if (const auto known = results_.size(); known > 0 && !flags.json)
     fmt::print(stderr, "trivela: the results of {} matches are known already\n", known);
 }
 
-experiment::KnownPlay StudyRun::play(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
-                                     const experiment::PlayPlan& plan, const std::string& what) {
-  const auto range = log::range_of(flags_.shard, plan.matches);
-  if (!knows_all_) bar_.restart();
-  const double before = knows_all_ ? played_ : 0.0;
-  return experiment::play_missing(scenario, arms, plan, what, range, results_, [&](std::size_t done, std::size_t all) {
-    const auto to_play = static_cast<double>(all);
-    if (done == 0)  // what is known already takes no time
-      expected_ = knows_all_ ? expected_ - static_cast<double>(arms.size()) * range.size() + to_play : to_play;
-    played_ = before + static_cast<double>(done);
-    if (all > 0) bar_.show(played_, expected_, "matches", what);
-    if (StopRequest::asked()) throw Interrupted{};
-  });
+experiment::KnownPlay StudyRun::play(const std::vector<experiment::StudyWorld>& worlds,
+                                     const experiment::PlayPlan& plan) {
+  bar_.restart();
+  return experiment::play_missing(worlds, plan, results_,
+                                  [&](std::size_t done, std::size_t all, const std::string& what) {
+                                    if (all > 0)
+                                      bar_.show(static_cast<double>(done), static_cast<double>(all), "matches", what);
+                                    if (StopRequest::asked()) throw Interrupted{};
+                                  });
 }
 
 ExitCode StudyRun::keep() {
@@ -72,20 +66,10 @@ ExitCode StudyRun::keep() {
 
 void StudyRun::finish() {
   bar_.end();
-  flags_.shard ? results_.commit() : results_.finish();
+  results_.commit(!flags_.plan.shard);
 }
 
 namespace {
-
-std::vector<experiment::StudyRow> play_all(StudyRun& run, const experiment::Study& study,
-                                           const experiment::PlayPlan& plan) {
-  std::vector<experiment::StudyRow> rows;
-  for (const experiment::StudyWorld& world : study.worlds) {
-    auto played = run.play(world.scenario, world.arms, plan, world.what).arms;
-    for (std::size_t i = 0; i < played.size(); ++i) rows.push_back({world.labels[i], std::move(played[i])});
-  }
-  return rows;
-}
 
 void give(const StudyFlags& flags, const experiment::StudyReport& report) {
   flags.json ? fmt::print("{}", evaluator::json_text(report.json)) : say(report.text);
@@ -104,25 +88,23 @@ ExitCode run_study(StudyFlags flags, const std::function<experiment::Study(const
   const std::vector<experiment::Arm>& arms = study.worlds.front().arms;
   if (flags.calibrations == 0) warn_of_shared_robots(scenario, arms);
   for (const experiment::Arm& arm : arms) check_playable(scenario, arm, flags.plan.possessions);
-  std::size_t all = 0;
-  for (const experiment::StudyWorld& world : study.worlds) all += world.arms.size();
-  StudyRun run{flags, study.name, arguments_of(study), all};
+  StudyRun run{flags, study.name, arguments_of(study)};
   std::vector<experiment::StudyRow> rows;
   try {
-    rows = play_all(run, study, flags.plan);
+    rows = run.play(study.worlds, flags.plan).rows;
   } catch (const StudyRun::Interrupted&) {
     return run.keep();
   }
   run.finish();
-  if (!flags.shard) {
+  if (!flags.plan.shard) {
     give(flags, report_of(study, std::move(rows), flags.played(scenario)));
     return kDone;
   }
-  const auto range = log::range_of(flags.shard, flags.plan.matches);
+  const auto range = log::range_of(flags.plan.shard, flags.plan.matches);
   fmt::print(
       "shard {}: matches {} to {} of {} are in {}. For the report give this command --with and the files of all "
       "shards, in place of --shard and --results\n",
-      flags.shard->text(), range.begin, range.end - 1, flags.plan.matches, flags.results);
+      flags.plan.shard->text(), range.begin, range.end - 1, flags.plan.matches, flags.results);
   return kDone;
 }
 

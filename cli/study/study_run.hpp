@@ -17,13 +17,12 @@ namespace trivela::cli {
 /// order, before the first thread.
 class StudyRun {
  public:
-  /// `arguments`: everything that the study's rows depend on but its flags of play, as text. `arms`: that it will play
-  /// in all; 0: nobody knows. Throws std::runtime_error where --results or --with cannot be used.
-  StudyRun(const StudyFlags& flags, const std::string& name, const std::string& arguments, std::size_t arms);
+  /// `arguments`: everything that the study's rows depend on but its flags of play, as text. Throws std::runtime_error
+  /// where --results or --with cannot be used.
+  StudyRun(const StudyFlags& flags, const std::string& name, const std::string& arguments);
 
   /// Plays what the results lack and gives what is known then. Throws Interrupted where somebody asks to stop.
-  experiment::KnownPlay play(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
-                             const experiment::PlayPlan& plan, const std::string& what);
+  experiment::KnownPlay play(const std::vector<experiment::StudyWorld>& worlds, const experiment::PlayPlan& plan);
 
   /// Somebody asked to stop: keeps what was played, and says how to go on from there.
   ExitCode keep();
@@ -40,9 +39,6 @@ class StudyRun {
   StopRequest stop_;  // before the results, which the first one must not leave behind
   log::StudyResults results_;
   ProgressBar bar_;
-  bool knows_all_;         // how many matches of arms it will play
-  double expected_ = 0.0;  // of those that are not known; where nobody knows: of this step
-  double played_ = 0.0;
 };
 
 /// Plays the study that `make` makes of the scenario, and gives its report: printed as text or JSON, and the files that

@@ -58,21 +58,24 @@ std::vector<experiment::ArmTally> play(StudyRun& run, const sim::Scenario& scena
                                        const std::string& what) {
   std::vector<experiment::Arm> arms(settings.size(), arm);
   for (std::size_t i = 0; i < settings.size(); ++i) arms[i].settings = settings[i];
-  auto known = run.play(scenario, arms, plan, what);
+  auto known = run.play({{what, scenario, arms}}, plan);
   if (!known.whole) throw StepPlayed{};
-  return std::move(known.arms);
+  std::vector<experiment::ArmTally> tallies;
+  for (experiment::StudyRow& row : known.rows) tallies.push_back(std::move(row.matches));
+  return tallies;
 }
 
 void check(const TuneFlags& flags) {
   flags.require_writable();
   require_writable("--out", flags.out);
-  if (flags.shard ? !flags.out.empty() : flags.out.empty())
-    throw UsageError{flags.shard ? "--out and --shard: a part of the matches finds no settings" : "--out is required"};
+  if (flags.plan.shard ? !flags.out.empty() : flags.out.empty())
+    throw UsageError{flags.plan.shard ? "--out and --shard: a part of the matches finds no settings"
+                                      : "--out is required"};
 }
 
 ExitCode say_step(StudyRun& run, const TuneFlags& flags, bool ended) {
   run.finish();
-  const std::string shard = flags.shard->text();
+  const std::string shard = flags.plan.shard->text();
   say(ended ? fmt::format(
                   "shard {}: the search has ended; this command with --out in place of --shard gives what it found\n",
                   shard)
@@ -108,11 +111,11 @@ ExitCode search(StudyRun& run, experiment::TuneReport& report, const TuneFlags& 
     report.held_out_start = std::move(played[0]);
     report.held_out_best = std::move(played[1]);
   } catch (const StudyRun::Interrupted&) {
-    return flags.shard ? run.keep() : write_best(run, report, flags, true);
+    return flags.plan.shard ? run.keep() : write_best(run, report, flags, true);
   } catch (const StepPlayed&) {
     return say_step(run, flags, false);
   }
-  return flags.shard ? say_step(run, flags, true) : write_best(run, report, flags, false);
+  return flags.plan.shard ? say_step(run, flags, true) : write_best(run, report, flags, false);
 }
 
 ExitCode study_tune(TuneFlags flags) {
@@ -137,7 +140,7 @@ ExitCode study_tune(TuneFlags flags) {
       experiment::arguments_of({.name = "tune", .whom = "", .worlds = {{"tune", scenario, {arm}, {}}}});
   for (const experiment::Coordinate& coordinate : report.space)
     arguments += fmt::format("{}\n", fmt::join(coordinate.choices, "\n"));
-  StudyRun run{flags, "tune", arguments, 0};
+  StudyRun run{flags, "tune", arguments};
   return search(run, report, flags, other, scenario, arm);
 }
 

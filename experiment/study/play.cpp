@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -44,45 +45,64 @@ std::string text_of(const sim::Scenario& scenario, const Arm& arm, const PlayPla
   return text;
 }
 
+/// An arm of a world, and its place in the results.
+struct Place {
+  const StudyWorld& world;
+  std::size_t arm;
+  std::size_t kept;
+};
+
+MatchTally play_one(const Place& place, const PlayPlan& plan, std::uint32_t match) {
+  Arm arm = place.world.arms[place.arm];
+  const std::size_t calibration = plan.calibrations.empty() ? 0 : match % plan.calibrations.size();
+  if (!plan.calibrations.empty() && !arm.own_robots) arm.robots = plan.calibrations[calibration];
+  return tally_of(play_match(place.world.scenario, arm, plan.seed, match, plan.possessions),
+                  static_cast<std::uint32_t>(calibration));
+}
+
+StudyRow row_of(const Place& place, const std::map<std::uint32_t, MatchTally>& known, std::uint32_t matches) {
+  StudyRow row{place.world.labels.empty() ? RowLabels{} : place.world.labels[place.arm], ArmTally(matches)};
+  for (const auto& [match, tally] : known) row.matches.at(match) = tally;
+  return row;
+}
+
 }  // namespace
 
-KnownPlay play_missing(const sim::Scenario& scenario, const std::vector<Arm>& arms, const PlayPlan& plan,
-                       const std::string& what, const log::MatchRange& range, log::StudyResults& results,
-                       const std::function<void(std::size_t, std::size_t)>& progress) {
-  std::vector<std::int64_t> ids;
-  std::map<std::int64_t, std::map<std::uint32_t, MatchTally>> known;
-  std::map<std::int64_t, std::size_t> first;  // arm of each id
-  for (std::size_t i = 0; i < arms.size(); ++i) {
-    ids.push_back(results.arm(text_of(scenario, arms[i], plan), what + ": " + arms[i].name));
-    if (first.try_emplace(ids.back(), i).second) known[ids.back()] = results.matches_of(ids.back());
-  }
-  std::vector<std::pair<std::size_t, std::uint32_t>> missing;  // match by match: slow arms are spread over the threads
-  for (std::uint32_t match = range.begin; match < range.end; ++match) {
-    for (const auto& [id, arm] : first) {
-      if (!known[id].contains(match)) missing.emplace_back(arm, match);
+KnownPlay play_missing(const std::vector<StudyWorld>& worlds, const PlayPlan& plan, log::StudyResults& results,
+                       const std::function<void(std::size_t, std::size_t, const std::string&)>& progress) {
+  const log::MatchRange range = log::range_of(plan.shard, plan.matches);
+  std::vector<Place> places;
+  std::vector<std::pair<Place, std::uint32_t>> missing;
+  for (const StudyWorld& world : worlds) {
+    std::vector<Place> first;  // of the results' arms, one may be there twice
+    for (std::size_t i = 0; i < world.arms.size(); ++i) {
+      const Arm& arm = world.arms[i];
+      const Place place{world, i, results.arm(text_of(world.scenario, arm, plan), world.what + ": " + arm.name)};
+      if (std::ranges::find(places, place.kept, &Place::kept) == places.end()) first.push_back(place);
+      places.push_back(place);
     }
+    for (std::uint32_t match = range.begin; match < range.end; ++match)  // slow arms are spread over the threads
+      for (const Place& place : first)
+        if (!results.matches_of(place.kept).contains(match)) missing.emplace_back(place, match);
   }
   std::size_t done = 0;
-  progress(done, missing.size());
-  const CalibratedArms calibrated{arms, plan.calibrations};
+  progress(done, missing.size(), worlds.front().what);
   std::mutex one_at_a_time;
   bool stopped = false;  // by an exception: matches that were under way are not reported
   in_threads(missing.size(), plan.jobs, [&](std::size_t i) {
-    const auto [arm, match] = missing[i];
-    const MatchTally tally =
-        tally_of(play_match(scenario, calibrated.of(match)[arm], plan.seed, match, plan.possessions),
-                 calibrated.calibration_of(match));
+    const auto& [place, match] = missing[i];
+    const MatchTally tally = play_one(place, plan, match);
     const std::lock_guard lock{one_at_a_time};
     if (std::exchange(stopped, true)) return;
-    results.add(ids[arm], match, tally);
-    known[ids[arm]][match] = tally;
-    progress(++done, missing.size());
+    results.add(place.kept, match, tally);
+    progress(++done, missing.size(), place.world.what);
     stopped = false;
   });
-  KnownPlay play{.arms = std::vector<ArmTally>(arms.size(), ArmTally(plan.matches)), .whole = true};
-  for (std::size_t i = 0; i < arms.size(); ++i) {
-    for (const auto& [match, tally] : known[ids[i]]) play.arms[i].at(match) = tally;
-    play.whole = play.whole && known[ids[i]].size() == plan.matches;
+  KnownPlay play{.rows = {}, .whole = true};
+  for (const Place& place : places) {
+    const auto& known = results.matches_of(place.kept);
+    play.rows.push_back(row_of(place, known, plan.matches));
+    play.whole = play.whole && known.size() == plan.matches;
   }
   return play;
 }

@@ -15,7 +15,7 @@ struct StudyWorld {
   std::string what;  ///< "opponents at 2 m"; tells it from the study's other worlds
   sim::Scenario scenario{};
   std::vector<Arm> arms{};
-  std::vector<RowLabels> labels{};  ///< an arm's each
+  std::vector<RowLabels> labels{};  ///< an arm's each; empty: there are none
   std::string why{};                ///< it is as it is
 };
 

@@ -83,15 +83,14 @@ void create_tables(SQLite::Database& database) {
   database.exec("ANALYZE");  // its table now, while the schema lies in front: of a file that was cut the schema is read
 }
 
-void create_study(SQLite::Database& database, const StudyRow& study) {
+void create_study(SQLite::Database& database, const std::string& arguments, std::int64_t matches) {
   database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kStudyResults.application_id,
                             kStudyResults.version));
   database.exec(kStudySchemaSql);
-  SQLite::Statement insert(database, "INSERT INTO studies VALUES (?, ?, ?, ?)");
-  insert.bind(1, sha256(study.arguments));
-  insert.bind(2, study.arguments);
-  insert.bind(3, study.matches);
-  insert.bind(4, study.finished ? 1 : 0);
+  SQLite::Statement insert(database, "INSERT INTO studies VALUES (?, ?, ?, 0)");
+  insert.bind(1, sha256(arguments));
+  insert.bind(2, arguments);
+  insert.bind(3, matches);
   insert.exec();
 }
 

@@ -39,15 +39,9 @@ void create_reading_views(SQLite::Database& database);
 /// Creates the tables of a match log. Throws SQLite::Exception.
 void create_tables(SQLite::Database& database);
 
-/// What study results says of its study.
-struct StudyRow {
-  std::string arguments;
-  std::int64_t matches = 0;
-  bool finished = false;
-};
-
-/// Creates the tables of study results (log/shards/study_results.hpp). Throws SQLite::Exception.
-void create_study(SQLite::Database& database, const StudyRow& study);
+/// Creates the tables of study results (log/shards/study_results.hpp), begun with `arguments`. Throws
+/// SQLite::Exception.
+void create_study(SQLite::Database& database, const std::string& arguments, std::int64_t matches);
 
 /// Inserts a session's rows, its texts where they are not there yet; `uuid` must be set. `closed_t_ns`: end of the
 /// recording, none: it goes on. Throws SQLite::Exception.

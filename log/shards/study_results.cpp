@@ -1,10 +1,11 @@
 #include "log/shards/study_results.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
 
-#include <chrono>
+#include <algorithm>
 #include <stdexcept>
 
 #include "log/file/files_beside.hpp"
@@ -46,136 +47,126 @@ std::unique_ptr<SQLite::Database> resume(const fs::path& path, const std::string
 }
 
 std::unique_ptr<SQLite::Database> open(const fs::path& path, const std::string& arguments, std::uint32_t matches) {
-  const auto create = [&](SQLite::Database& database) {
-    SQLite::Transaction transaction(database);
-    create_study(database, {arguments, matches, false});
-    transaction.commit();
-  };
-  if (path.empty()) {
-    auto database = std::make_unique<SQLite::Database>(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    create(*database);
-    return database;
-  }
   const bool there = fs::exists(path) && (!fs::is_regular_file(path) || fs::file_size(path) > 0);
-  if (!there) fold(*new_file(path, kStudyResults, create));
+  if (!there) {
+    fold(*new_file(path, kStudyResults, [&](SQLite::Database& database) {
+      SQLite::Transaction transaction(database);
+      create_study(database, arguments, matches);
+      transaction.commit();
+    }));
+  }
   return resume(path, arguments);
 }
 
-/// The columns of table tallies but arm_id.
-std::string tally_columns() {
-  std::string columns = "match_id, calibration_id";
-  for (const TallyField& count : kTallyFields) columns += fmt::format(", {}", count.name);
-  return columns;
+/// What a file has, in the order of places.
+std::vector<StudyResults::Arm> arms_in(SQLite::Database& database) {
+  std::vector<StudyResults::Arm> arms;
+  SQLite::Statement select(database, "SELECT arm_id, sha256, name FROM arms ORDER BY place");
+  while (select.executeStep())
+    arms.push_back({select.getColumn(0).getInt64(), select.getColumn(1).getString(), select.getColumn(2).getString()});
+  SQLite::Statement played(database, "SELECT * FROM tallies WHERE arm_id = ?");
+  for (StudyResults::Arm& arm : arms) {
+    played.bind(1, arm.arm_id);
+    while (played.executeStep()) {
+      MatchTally& tally = arm.matches[played.getColumn(1).getUInt()];
+      int place = 2;
+      tally.calibration = played.getColumn(place).getUInt();
+      for (const TallyField& count : kTallyFields) tally.*count.field = played.getColumn(++place).getInt64();
+    }
+    played.reset();
+  }
+  return arms;
 }
 
 }  // namespace
 
 StudyResults::StudyResults(const fs::path& path, const std::string& arguments, std::uint32_t matches)
-    : path_(path), arguments_(arguments), database_(open(path, arguments, matches)) {}
+    : path_(path), arguments_(arguments), study_matches_(matches) {
+  if (path.empty()) return;
+  database_ = open(path, arguments, matches);
+  arms_ = arms_in(*database_);
+  arms_written_ = arms_.size();
+}
 StudyResults::~StudyResults() = default;
-
-void StudyResults::begin() {
-  if (begun_) return;
-  database_->exec("BEGIN IMMEDIATE; UPDATE main.studies SET finished = 0 WHERE finished = 1");
-  begun_ = std::chrono::steady_clock::now();
-}
-
-void StudyResults::written(const std::function<void()>& work) const {
-  try {
-    work();
-  } catch (const SQLite::Exception& error) {
-    throw std::runtime_error(fmt::format("{}: results could not be written: {}", path_.string(), error.what()));
-  }
-}
 
 void StudyResults::take_over(const fs::path& path) {
   std::error_code none;
   if (fs::equivalent(path, path_, none)) return;
-  LogFile(path, kStudyResults, Check::kWhole).query("SELECT arguments FROM studies", [&](const std::string& theirs) {
+  const LogFile other(path, kStudyResults, Check::kWhole);
+  other.query("SELECT arguments FROM studies", [&](const std::string& theirs) {
     if (theirs != arguments_) throw std::runtime_error(fmt::format("{}: has results of another study", path.string()));
   });
-  commit();
-  written([&] {
-    SQLite::Statement attach(*database_, "ATTACH ? AS other");
-    attach.bind(1, name_of_main_file(path));
-    attach.exec();
-    {
-      SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
-      database_->exec(
-          "INSERT OR IGNORE INTO main.arms SELECT arm_id, sha256, (SELECT count(*) FROM main.arms) + place, name FROM "
-          "other.arms; INSERT OR IGNORE INTO main.tallies SELECT * FROM other.tallies");
-      SQLite::Statement differs(*database_,
-                                "SELECT match_id FROM (SELECT * FROM other.tallies EXCEPT SELECT * FROM main.tallies)");
-      if (differs.executeStep())
-        throw std::runtime_error(fmt::format("{}: says something else of match {} than the other results",
-                                             path.string(), differs.getColumn(0).getInt64()));
-      transaction.commit();
-    }
-    attach.reset();
-    database_->exec("DETACH other");
-  });
-}
-
-std::int64_t StudyResults::arm(const std::string& text, const std::string& name) {
-  const std::string digest = sha256(text);
-  const auto arm_id = static_cast<std::int64_t>(std::stoull(digest.substr(0, 16), nullptr, 16) >> 1);
-  written([&] {
-    SQLite::Statement known(*database_, "SELECT 1 FROM main.arms WHERE arm_id = ?");
-    known.bind(1, arm_id);
-    if (known.executeStep()) return;
-    begin();
-    SQLite::Statement insert(*database_, "INSERT INTO main.arms SELECT ?, ?, count(*), ? FROM main.arms");
-    insert.bind(1, arm_id);
-    insert.bind(2, digest);
-    insert.bind(3, name);
-    insert.exec();
-  });
-  return arm_id;
-}
-
-std::map<std::uint32_t, MatchTally> StudyResults::matches_of(std::int64_t arm_id) const {
-  std::map<std::uint32_t, MatchTally> matches;
-  SQLite::Statement select(*database_, fmt::format("SELECT {} FROM main.tallies WHERE arm_id = ?", tally_columns()));
-  select.bind(1, arm_id);
-  while (select.executeStep()) {
-    MatchTally& tally = matches[select.getColumn(0).getUInt()];
-    tally.calibration = select.getColumn(1).getUInt();
-    int place = 1;
-    for (const TallyField& count : kTallyFields) tally.*count.field = select.getColumn(++place).getInt64();
+  std::vector<Arm> arms;
+  other.as_query([&] { arms = arms_in(other.database()); });
+  for (const Arm& arm : arms) {
+    const auto known = std::ranges::find(arms_, arm.arm_id, &Arm::arm_id);
+    if (known == arms_.end()) continue;
+    for (const auto& [match, tally] : arm.matches)
+      if (const auto ours = known->matches.find(match); ours != known->matches.end() && ours->second != tally)
+        throw std::runtime_error(
+            fmt::format("{}: says something else of match {} than the other results", path.string(), match));
   }
-  return matches;
+  for (const Arm& arm : arms) {
+    const std::size_t place = place_of({arm.arm_id, arm.sha256, arm.name});
+    for (const auto& [match, tally] : arm.matches)
+      if (!arms_[place].matches.contains(match)) add(place, match, tally);
+  }
+  commit();
 }
 
-void StudyResults::add(std::int64_t arm_id, std::uint32_t match_id, const MatchTally& tally) {
-  written([&] {
-    begin();
-    std::string values = fmt::format("{}, {}, {}", arm_id, match_id, tally.calibration);
-    for (const TallyField& count : kTallyFields) values += fmt::format(", {}", tally.*count.field);
-    database_->exec(fmt::format("INSERT INTO main.tallies (arm_id, {}) VALUES ({})", tally_columns(), values));
-  });
-  if (std::chrono::steady_clock::now() - *begun_ >= kResultsGroup) commit();
+std::size_t StudyResults::arm(const std::string& text, const std::string& name) {
+  const std::string digest = sha256(text);
+  return place_of({static_cast<std::int64_t>(std::stoull(digest.substr(0, 16), nullptr, 16) >> 1), digest, name});
+}
+
+std::size_t StudyResults::place_of(Arm arm) {
+  const auto known = std::ranges::find(arms_, arm.arm_id, &Arm::arm_id);
+  const auto place = static_cast<std::size_t>(known - arms_.begin());
+  if (known == arms_.end()) arms_.push_back(std::move(arm));
+  return place;
+}
+
+void StudyResults::add(std::size_t arm, std::uint32_t match_id, const MatchTally& tally) {
+  if (unwritten_.empty()) waits_since_ = std::chrono::steady_clock::now();
+  arms_[arm].matches[match_id] = tally;
+  unwritten_.emplace_back(arm, match_id);
+  if (std::chrono::steady_clock::now() - waits_since_ >= kResultsGroup) commit();
 }
 
 std::int64_t StudyResults::size() const {
-  return database_->execAndGet("SELECT count(*) FROM main.tallies").getInt64();
+  std::size_t matches = 0;
+  for (const Arm& arm : arms_) matches += arm.matches.size();
+  return static_cast<std::int64_t>(matches);
 }
 
-void StudyResults::commit() {
-  if (!begun_) return;
-  written([&] { database_->exec("COMMIT"); });
-  begun_.reset();
-}
-
-void StudyResults::finish() {
-  commit();
-  written([&] { database_->exec("UPDATE main.studies SET finished = 1 WHERE finished = 0"); });
+void StudyResults::commit(bool finished) try {
+  const bool unchanged = unwritten_.empty() && arms_written_ == arms_.size();
+  if (!database_ || (unchanged && !finished)) return;
+  SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
+  SQLite::Statement insert(*database_, "INSERT INTO arms VALUES (?, ?, ?, ?)");
+  for (std::size_t place = arms_written_; place < arms_.size(); ++place) {
+    SQLite::bind(insert, arms_[place].arm_id, arms_[place].sha256, static_cast<std::int64_t>(place), arms_[place].name);
+    insert.exec();
+    insert.reset();
+  }
+  for (const auto& [place, match_id] : unwritten_) {
+    const MatchTally& tally = arms_[place].matches.at(match_id);
+    std::string values = fmt::format("{}, {}, {}", arms_[place].arm_id, match_id, tally.calibration);
+    for (const TallyField& count : kTallyFields) values += fmt::format(", {}", tally.*count.field);
+    database_->exec(fmt::format("INSERT INTO tallies VALUES ({})", values));
+  }
+  database_->exec(fmt::format("UPDATE studies SET finished = {0} WHERE finished <> {0}", finished ? 1 : 0));
+  transaction.commit();
+  arms_written_ = arms_.size();
+  unwritten_.clear();
+} catch (const SQLite::Exception& error) {
+  throw std::runtime_error(fmt::format("{}: results could not be written: {}", path_.string(), error.what()));
 }
 
 void StudyResults::save(const fs::path& path) {
+  path_ = path;
+  database_ = open(path, arguments_, study_matches_);
   commit();
-  SQLite::Statement vacuum(*database_, "VACUUM main INTO ?");
-  vacuum.bind(1, path.string());
-  vacuum.exec();
 }
 
 }  // namespace trivela::log

@@ -6,11 +6,10 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace trivela::log {
@@ -29,7 +28,7 @@ struct MatchTally {
   bool operator==(const MatchTally&) const = default;
 };
 
-/// A count of a match by its name, which is its column's in a results file.
+/// A count of a match by its name, which is its column's in a results file. They are in the order of the columns.
 struct TallyField {
   const char* name;
   std::int64_t MatchTally::*field;
@@ -50,6 +49,14 @@ using ArmTally = std::vector<MatchTally>;
 /// the file is locked.
 class StudyResults {
  public:
+  /// What is known of an arm.
+  struct Arm {
+    std::int64_t arm_id = 0;
+    std::string sha256;
+    std::string name;
+    std::map<std::uint32_t, MatchTally> matches{};
+  };
+
   /// Makes the file, or goes on with it; without a path the results are in memory until save(). `arguments`: everything
   /// that the rows depend on, as text; `matches` of each arm, of the whole study. Throws FileTaken naming the file
   /// where it is something else, of other arguments, or in use.
@@ -62,34 +69,35 @@ class StudyResults {
   /// study, cannot be read, or says something else of a match.
   void take_over(const std::filesystem::path& path);
 
-  /// The number of an arm, by `text`, all that its matches depend on but their number; `name` is for people.
-  std::int64_t arm(const std::string& text, const std::string& name);
+  /// The place of an arm, by `text`, all that its matches depend on but their number; `name` is for people.
+  std::size_t arm(const std::string& text, const std::string& name);
 
-  std::map<std::uint32_t, MatchTally> matches_of(std::int64_t arm_id) const;
+  const std::map<std::uint32_t, MatchTally>& matches_of(std::size_t arm) const { return arms_[arm].matches; }
 
-  /// A match that matches_of() does not have. Committed within half a second. Throws std::runtime_error naming the
-  /// file where it cannot be written.
-  void add(std::int64_t arm_id, std::uint32_t match_id, const MatchTally& tally);
+  /// A match that matches_of() does not have. Written within half a second of the first one that is not, if more are
+  /// added. Throws std::runtime_error naming the file where it cannot be written.
+  void add(std::size_t arm, std::uint32_t match_id, const MatchTally& tally);
 
   /// Matches of arms.
   std::int64_t size() const;
 
-  void commit();
+  /// What was added is in the file. `finished`: all matches are there. Throws as add().
+  void commit(bool finished = false);
 
-  /// All matches are there.
-  void finish();
-
-  /// Writes results in memory to a new file.
+  /// Writes results in memory to a new file, and goes on there.
   void save(const std::filesystem::path& path);
 
  private:
-  void begin();
-  void written(const std::function<void()>& work) const;
+  std::size_t place_of(Arm arm);
 
   std::filesystem::path path_;
   std::string arguments_;
-  std::unique_ptr<SQLite::Database> database_;
-  std::optional<std::chrono::steady_clock::time_point> begun_{};  // of the matches in one transaction
+  std::uint32_t study_matches_;
+  std::unique_ptr<SQLite::Database> database_;                    // none: in memory alone
+  std::vector<Arm> arms_;                                         // by place
+  std::size_t arms_written_ = 0;                                  // the first ones
+  std::vector<std::pair<std::size_t, std::uint32_t>> unwritten_;  // matches by place and number
+  std::chrono::steady_clock::time_point waits_since_;             // the first of them
 };
 
 }  // namespace trivela::log

@@ -6,14 +6,13 @@
 
 #include "experiment/run/arms.hpp"
 #include "experiment/study/comparisons.hpp"
-#include "experiment/study/play.hpp"
 #include "log/file/new_file.hpp"
+#include "play_arms.hpp"
 #include "tests/support/folder.hpp"
 
 namespace trivela::experiment {
 namespace {
 
-using log::MatchRange;
 using log::StudyResults;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -34,120 +33,143 @@ std::vector<Arm> stopped_and_moving() {
   return {arm_called("stopped", kicking::PolicyName::kStopped), arm_called("moving", kicking::PolicyName::kMoving)};
 }
 
+/// What is known after one world was played.
 struct Played {
-  KnownPlay known;
+  std::vector<ArmTally> arms;
+  bool whole = false;
   std::size_t missing = 0;  ///< matches that had to be played
 };
 
-Played play_shard(StudyResults& results, const MatchRange& range, const std::vector<Arm>& arms = stopped_and_moving(),
-                  const PlayPlan& plan = kPlan) {
-  Played made;
-  made.known =
-      play_missing({}, arms, plan, "test", range, results, [&](std::size_t, std::size_t all) { made.missing = all; });
+Played play_world(StudyResults& results, const PlayPlan& plan = kPlan,
+                  const std::vector<Arm>& arms = stopped_and_moving(), const sim::Scenario& scenario = {}) {
+  std::size_t missing = 0;
+  const auto told = [&](std::size_t, std::size_t all, const std::string&) { missing = all; };
+  const KnownPlay known = play_missing({{"test", scenario, arms}}, plan, results, told);
   results.commit();
-  return made;
+  return {tallies_of(known.rows), known.whole, missing};
+}
+
+PlayPlan shard_of(std::uint32_t number, std::uint32_t count) {
+  PlayPlan plan = kPlan;
+  plan.shard = log::Shard{number, count};
+  return plan;
 }
 
 /// The matches of one run without a file.
-std::vector<ArmTally> of_one_run(const std::vector<Arm>& arms = stopped_and_moving(), const PlayPlan& plan = kPlan) {
-  StudyResults results{"", kArguments, plan.matches};
-  return play_shard(results, {0, plan.matches}, arms, plan).known.arms;
+std::vector<ArmTally> of_one_run() {
+  StudyResults results{"", kArguments, kPlan.matches};
+  return play_world(results).arms;
 }
 
 TEST(StudyPlay, TheMatchesOfAFileAreNotPlayedAgain) {
   const tests::Folder folder;
   {
     StudyResults results{folder / "a.db", kArguments, 4};
-    EXPECT_EQ(play_shard(results, {0, 3}).missing, 6u);
+    EXPECT_EQ(play_world(results, shard_of(1, 2)).missing, 4u);
   }
   StudyResults results{folder / "a.db", kArguments, 4};
-  EXPECT_EQ(results.size(), 6);
-  const Played rest = play_shard(results, {0, 4});
-  EXPECT_EQ(rest.missing, 2u);
-  EXPECT_TRUE(rest.known.whole);
-  EXPECT_EQ(rest.known.arms, of_one_run());
-  EXPECT_EQ(play_shard(results, {0, 4}).missing, 0u);
+  EXPECT_EQ(results.size(), 4);
+  const Played rest = play_world(results);
+  EXPECT_EQ(rest.missing, 4u);
+  EXPECT_TRUE(rest.whole);
+  EXPECT_EQ(rest.arms, of_one_run());
+  EXPECT_EQ(play_world(results).missing, 0u);
 }
 
 TEST(StudyPlay, AShardPlaysItsOwnMatchesAndIsNotTheWhole) {
   StudyResults results{"", kArguments, 4};
-  const Played part = play_shard(results, {1, 3});
-  EXPECT_EQ(part.missing, 4u);
-  EXPECT_FALSE(part.known.whole);
+  const Played part = play_world(results, shard_of(2, 3));
+  EXPECT_EQ(part.missing, 2u);
+  EXPECT_FALSE(part.whole);
   const auto all = of_one_run();
   for (const std::size_t i : {0u, 1u}) {
-    EXPECT_EQ(part.known.arms[i][0], MatchTally{});
-    EXPECT_EQ(part.known.arms[i][1], all[i][1]);
-    EXPECT_EQ(part.known.arms[i][2], all[i][2]);
-    EXPECT_EQ(part.known.arms[i][3], MatchTally{});
+    EXPECT_EQ(part.arms[i][0], MatchTally{});
+    EXPECT_EQ(part.arms[i][1], all[i][1]);
+    EXPECT_EQ(part.arms[i][2], MatchTally{});
+    EXPECT_EQ(part.arms[i][3], MatchTally{});
   }
 }
 
 TEST(StudyPlay, ShardsInAnyOrderAreTheRowsOfOneRun) {
   const tests::Folder folder;
-  for (const std::uint32_t shard : {0u, 1u}) {
+  for (const std::uint32_t shard : {1u, 2u}) {
     StudyResults results{folder / std::to_string(shard), kArguments, 4};
-    play_shard(results, {2 * shard, 2 * shard + 2});
+    play_world(results, shard_of(shard, 2));
   }
   StudyResults all{"", kArguments, 4};
-  for (const char* const shard : {"1", "0", "1"}) all.take_over(folder / shard);
-  const Played put_together = play_shard(all, {0, 4});
+  for (const char* const shard : {"2", "1", "2"}) all.take_over(folder / shard);
+  const Played put_together = play_world(all);
   EXPECT_EQ(put_together.missing, 0u);
-  EXPECT_TRUE(put_together.known.whole);
-  EXPECT_EQ(put_together.known.arms, of_one_run());
+  EXPECT_TRUE(put_together.whole);
+  EXPECT_EQ(put_together.arms, of_one_run());
 }
 
 TEST(StudyPlay, ResultsInMemoryAreSavedAsAFileThatGoesOn) {
   const tests::Folder folder;
   {
     StudyResults results{"", kArguments, 4};
-    play_shard(results, {0, 2});
+    play_world(results, shard_of(1, 2));
     results.save(folder / "a.db");
   }
   StudyResults results{folder / "a.db", kArguments, 4};
-  EXPECT_EQ(play_shard(results, {0, 4}).missing, 4u);
+  EXPECT_EQ(play_world(results).missing, 4u);
 }
 
 TEST(StudyPlay, AnArmThatIsThereTwiceIsPlayedOnceAndCountsTwice) {
   std::vector<Arm> arms = stopped_and_moving();
   arms.push_back(arms.front());
   StudyResults results{"", kArguments, 4};
-  const Played once = play_shard(results, {0, 4}, arms);
+  const Played once = play_world(results, kPlan, arms);
   EXPECT_EQ(once.missing, 8u);
-  EXPECT_EQ(once.known.arms[2], once.known.arms[0]);
-  EXPECT_TRUE(once.known.whole);
+  EXPECT_EQ(once.arms[2], once.arms[0]);
+  EXPECT_TRUE(once.whole);
+}
+
+TEST(StudyPlay, WorldsArePlayedTogetherAndTheirRowsComeInTheirOrder) {
+  sim::Scenario kept;
+  kept.keeper.enabled = true;
+  const RowLabels first{{"world", "open"}}, second{{"world", "kept"}};
+  const std::vector<StudyWorld> worlds{{"open", {}, {stopped_and_moving()[0]}, {first}},
+                                       {"kept", kept, {stopped_and_moving()[0]}, {second}},
+                                       {"open again", {}, {stopped_and_moving()[0]}, {first}}};
+  StudyResults results{"", kArguments, 4};
+  std::vector<std::string> told;
+  const KnownPlay known = play_missing(
+      worlds, kPlan, results, [&](std::size_t, std::size_t, const std::string& what) { told.push_back(what); });
+  EXPECT_EQ(told.size(), 1u + 8u) << "the third world has no match of its own";
+  ASSERT_EQ(known.rows.size(), 3u);
+  EXPECT_EQ(known.rows[1].label("world"), "kept");
+  EXPECT_EQ(known.rows[0].matches, of_one_run()[0]);
+  EXPECT_EQ(known.rows[2].matches, known.rows[0].matches);
 }
 
 TEST(StudyPlay, NoMatchStandsForOneOfAnotherSeedLengthOrWorld) {
   StudyResults results{"", kArguments, 4};
-  play_shard(results, {0, 4});
+  play_world(results);
   PlayPlan other = kPlan;
   other.seed = 4;
-  EXPECT_EQ(play_shard(results, {0, 4}, stopped_and_moving(), other).missing, 8u);
+  EXPECT_EQ(play_world(results, other).missing, 8u);
   other = kPlan;
   other.possessions = 5;
-  EXPECT_EQ(play_shard(results, {0, 4}, stopped_and_moving(), other).missing, 8u);
+  EXPECT_EQ(play_world(results, other).missing, 8u);
   sim::Scenario world;
   world.keeper.enabled = !world.keeper.enabled;
-  std::size_t missing = 0;
-  play_missing(world, stopped_and_moving(), kPlan, "test", {0, 4}, results,
-               [&](std::size_t, std::size_t all) { missing = all; });
-  EXPECT_EQ(missing, 8u);
+  EXPECT_EQ(play_world(results, kPlan, stopped_and_moving(), world).missing, 8u);
 }
 
 TEST(StudyPlay, OtherCalibrationsAreOtherMatchesButForAnArmWithRobotsOfItsOwn) {
   std::vector<Arm> arms = stopped_and_moving();
   arms[1].own_robots = true;
   StudyResults results{"", kArguments, 4};
-  play_shard(results, {0, 4}, arms);
+  play_world(results, kPlan, arms);
   PlayPlan calibrated = kPlan;
   config::Robot late;
   late.model.delay_s = 0.09;
   calibrated.calibrations = {{config::Robot{}}, {late}};
-  const Played again = play_shard(results, {0, 4}, arms, calibrated);
+  const Played again = play_world(results, calibrated, arms);
   EXPECT_EQ(again.missing, 4u) << "those of the first arm";
-  EXPECT_EQ(again.known.arms[0][0].calibration, 0u);
-  EXPECT_EQ(again.known.arms[0][3].calibration, 1u);
+  EXPECT_EQ(again.arms[0][0].calibration, 0u);
+  EXPECT_EQ(again.arms[0][3].calibration, 1u);
 }
 
 TEST(StudyPlay, WhereItIsStoppedTheFileHasWhatWasReportedAndNoMore) {
@@ -155,15 +177,15 @@ TEST(StudyPlay, WhereItIsStoppedTheFileHasWhatWasReportedAndNoMore) {
   struct Enough {};
   {
     StudyResults results{folder / "a.db", kArguments, 4};
-    const auto stop = [](std::size_t done, std::size_t) {
+    const auto stop = [](std::size_t done, std::size_t, const std::string&) {
       if (done == 3) throw Enough{};
     };
-    EXPECT_THROW(play_missing({}, stopped_and_moving(), kPlan, "test", {0, 4}, results, stop), Enough);
+    EXPECT_THROW(play_missing({{"test", {}, stopped_and_moving()}}, kPlan, results, stop), Enough);
     results.commit();
   }
   StudyResults results{folder / "a.db", kArguments, 4};
   EXPECT_EQ(results.size(), 3);
-  EXPECT_EQ(play_shard(results, {0, 4}).known.arms, of_one_run());
+  EXPECT_EQ(play_world(results).arms, of_one_run());
 }
 
 TEST(StudyPlay, AFileOfOtherArgumentsIsRefusedWithTheLineThatDiffers) {
@@ -181,8 +203,8 @@ TEST(StudyPlay, AForeignShardAndOneThatSaysSomethingElseLeaveTheResultsAsTheyAre
   const tests::Folder folder;
   for (const auto& [name, arguments] : {std::pair{"ours.db", kArguments}, std::pair{"foreign.db", "seed = 4\n"}}) {
     StudyResults results{folder / name, arguments, 4};
-    play_shard(results, {0, 2});
-    results.finish();
+    play_world(results, shard_of(1, 2));
+    results.commit(true);
   }
   std::filesystem::copy_file(folder / "ours.db", folder / "changed.db");
   SQLite::Database{(folder / "changed.db").string(), SQLite::OPEN_READWRITE}.exec(
