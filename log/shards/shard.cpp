@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <charconv>
+#include <sstream>
 #include <string_view>
 
 namespace trivela::log {
@@ -30,19 +29,12 @@ std::string stamped_arguments(const ShardStamp& stamp) {
 std::optional<ShardStamp> stamp_of(const std::string& arguments) {
   const auto at = arguments.rfind(kMark);
   if (at == std::string::npos) return std::nullopt;
-  std::array<std::int64_t, 3> numbers{};
-  const char* from = arguments.data() + at + kMark.size();
-  const char* const end = arguments.data() + arguments.size();
-  for (std::int64_t& number : numbers) {
-    const auto [stopped, error] = std::from_chars(from, end, number);
-    if (error != std::errc{} || stopped == end) return std::nullopt;
-    from = stopped + 1;  // behind a blank or the end of the line
-  }
-  const auto [number, count, matches] = numbers;
-  if (from != end || number < 1 || count < number || count > matches || matches > INT64_C(0xFFFFFFFF))
-    return std::nullopt;
-  return ShardStamp{
-      arguments.substr(0, at), {static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(count)}, matches};
+  ShardStamp stamp{arguments.substr(0, at), {}, 0};
+  std::istringstream numbers{arguments.substr(at + kMark.size())};
+  numbers >> stamp.shard.number >> stamp.shard.count >> stamp.matches;
+  const auto [number, count] = stamp.shard;
+  const bool holds = number >= 1 && number <= count && count <= stamp.matches && stamped_arguments(stamp) == arguments;
+  return holds ? std::optional{stamp} : std::nullopt;
 }
 
 }  // namespace trivela::log

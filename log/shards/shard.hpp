@@ -30,7 +30,7 @@ MatchRange range_of(const std::optional<Shard>& shard, std::uint32_t matches);
 struct ShardStamp {
   std::string arguments;  ///< of the whole experiment
   Shard shard;
-  std::int64_t matches = 0;  ///< of the whole experiment, of each arm
+  std::uint32_t matches = 0;  ///< of the whole experiment, of each arm
 };
 
 /// The stamp as arguments of a log: those of the whole, and a last line that says which part of it this is.

@@ -1,6 +1,7 @@
 #include "log/shards/shard_merge.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,24 +22,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A shard's log or that of a whole experiment, with the matches that it shall have, and has.
+/// A shard's log or that of a whole experiment.
 struct Part {
   fs::path path;
   ShardStamp stamp;
-  std::int64_t matches = 0;
-  std::int64_t done = 0;
   bool is_shard = false;  // false: a whole experiment, as its one part
+  std::int64_t done = 0;  // matches
 };
 
 /// None: another log.
-std::optional<Part> part_in(const fs::path& path, const Reader& reader) {
+std::optional<Part> part_in(const fs::path& path, Check check) {
   std::vector<Part> found;
-  reader.query("SELECT arguments, matches, matches_done FROM experiments", [&](const std::string& arguments,
-                                                                               std::int64_t matches,
-                                                                               std::int64_t done) {
-    const auto stamp = stamp_of(arguments);
-    found.push_back({path, stamp.value_or(ShardStamp{arguments, Shard{}, matches}), matches, done, stamp.has_value()});
-  });
+  Reader(path, check)
+      .query("SELECT arguments, matches, matches_done FROM experiments",
+             [&](const std::string& arguments, std::uint32_t matches, std::int64_t done) {
+               const auto stamp = stamp_of(arguments);
+               found.push_back({path, stamp.value_or(ShardStamp{arguments, {}, matches}), stamp.has_value(), done});
+             });
   return found.size() == 1 ? std::optional{found.front()} : std::nullopt;
 }
 
@@ -48,39 +48,33 @@ std::runtime_error refused_shard(const fs::path& path, const std::string& why) {
 }
 
 Part read_part(const fs::path& path) {
-  const Reader reader(path, Check::kWhole);
-  const auto part = part_in(path, reader);
+  const auto part = part_in(path, Check::kWhole);
   if (!part) throw refused_shard(path, "is no shard of an experiment (trivela simulate --shard), the other files are");
-  const std::string shard = part->stamp.shard.text();
-  if (part->done != part->matches)
+  const std::int64_t matches = range_of(part->stamp.shard, part->stamp.matches).size();
+  if (part->done != matches)
     throw refused_shard(path, fmt::format("shard {} has {} of its {} matches: the command that began it goes on from "
                                           "there",
-                                          shard, part->done, part->matches));
-  const MatchRange range = range_of(part->stamp.shard, static_cast<std::uint32_t>(part->stamp.matches));
-  if (range.size() != part->matches)
-    throw refused_shard(path,
-                        fmt::format("shard {} should have {} matches and not {}", shard, range.size(), part->matches));
+                                          part->stamp.shard.text(), part->done, matches));
   return *part;
 }
 
 /// Throws unless all are of one experiment, and none of its shards lacks.
 void check_one_experiment(const std::vector<Part>& parts) {
   const Part& first = *std::ranges::find(parts, true, &Part::is_shard);
-  const std::uint32_t count = first.stamp.shard.count;
+  const auto& [arguments, shard, matches] = first.stamp;
   std::set<std::string> missing;
-  for (std::uint32_t shard = 1; shard <= count; ++shard) missing.insert(Shard{shard, count}.text());
+  for (std::uint32_t number = 1; number <= shard.count; ++number) missing.insert(Shard{number, shard.count}.text());
   for (const Part& part : parts) {
-    const bool same = part.stamp.arguments == first.stamp.arguments && part.stamp.matches == first.stamp.matches &&
-                      (!part.is_shard || part.stamp.shard.count == count);
-    if (!same)
-      throw refused_shard(part.path, fmt::format("shard {} of {} matches is of another experiment, or cut otherwise, "
-                                                 "than {} (shard {} of {})",
-                                                 part.stamp.shard.text(), part.stamp.matches, first.path.string(),
-                                                 first.stamp.shard.text(), first.stamp.matches));
-    part.is_shard ? void(missing.erase(part.stamp.shard.text())) : missing.clear();
+    const auto& [own_arguments, own_shard, own_matches] = part.stamp;
+    if (own_arguments != arguments || own_matches != matches || (part.is_shard && own_shard.count != shard.count))
+      throw refused_shard(part.path,
+                          fmt::format("shard {} of {} matches is of another experiment, or cut otherwise, than {} "
+                                      "(shard {} of {})",
+                                      own_shard.text(), own_matches, first.path.string(), shard.text(), matches));
+    part.is_shard ? void(missing.erase(own_shard.text())) : missing.clear();
   }
   if (!missing.empty())
-    throw std::runtime_error(fmt::format("of {} shards {} {} missing: {}", count, missing.size(),
+    throw std::runtime_error(fmt::format("of {} shards {} {} missing: {}", shard.count, missing.size(),
                                          missing.size() == 1 ? "is" : "are", fmt::join(missing, ", ")));
 }
 
@@ -103,11 +97,8 @@ void make_whole(SQLite::Database& database, const ShardStamp& stamp) {
   database.exec(
       "DELETE FROM experiments; DELETE FROM merged_sessions; DELETE FROM session_clocks; DELETE FROM texts WHERE text "
       "= ''");
-  SQLite::Statement insert(database, "INSERT INTO experiments VALUES (?, ?, ?, ?)");
-  insert.bind(1, sha256(stamp.arguments));
-  insert.bind(2, stamp.arguments);
-  insert.bind(3, stamp.matches);
-  insert.bind(4, stamp.matches);
+  SQLite::Statement insert(database, "INSERT INTO experiments VALUES (?1, ?2, ?3, ?3)");
+  SQLite::bind(insert, sha256(stamp.arguments), stamp.arguments, stamp.matches);
   insert.exec();
 }
 
@@ -116,7 +107,7 @@ void make_whole(SQLite::Database& database, const ShardStamp& stamp) {
 bool any_is_shard(const std::vector<fs::path>& files) {
   return std::ranges::any_of(files, [](const fs::path& path) {
     try {
-      const auto found = part_in(path, Reader(path, Check::kSchema));
+      const auto found = part_in(path, Check::kSchema);
       return found && found->is_shard;
     } catch (const std::exception&) {
       return false;  // merging says what is wrong with it
@@ -141,9 +132,7 @@ MergedShards merge_shards(const std::vector<fs::path>& files, const fs::path& to
   const ShardStamp& stamp = parts.front().stamp;
   const Merged merged =
       merge(sorted, to, {.progress = told, .finish = [&](SQLite::Database& database) { make_whole(database, stamp); }});
-  return {.shards = static_cast<std::int64_t>(shards.size()),
-          .sessions = static_cast<std::int64_t>(merged.sessions.size()),
-          .matches = stamp.matches};
+  return {shards.size(), merged.sessions.size(), stamp.matches};
 }
 
 }  // namespace trivela::log

@@ -9,9 +9,9 @@ namespace trivela::log {
 
 /// What the shards of an experiment were made into.
 struct MergedShards {
-  std::int64_t shards = 0;
-  std::int64_t sessions = 0;
-  std::int64_t matches = 0;  ///< of each arm
+  std::size_t shards = 0;
+  std::size_t sessions = 0;
+  std::uint32_t matches = 0;  ///< of each arm
 };
 
 /// Is any of the files a shard's log of `trivela simulate`? What cannot be read is none.
