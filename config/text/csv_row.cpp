@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <iterator>
 
+#include "config/text/error.hpp"
+#include "config/text/open_file.hpp"
 #include "config/text/parse_number.hpp"
 #include "kicking/geometry/angle.hpp"
 
@@ -101,6 +104,20 @@ double Row::acute_angle_rad(std::string_view column) const {
   const double angle_deg = number(column);
   if (angle_deg <= 0.0 || angle_deg >= 90.0) throw CellError(column, *word(column), "is not between 0 and 90 degrees");
   return kicking::radians(angle_deg);
+}
+
+void each_row(const std::filesystem::path& table, const std::function<void(const Row&)>& read) {
+  std::ifstream in = open_file(table);
+  CsvReader reader{in, table.string()};
+  const auto header = reader.next();
+  while (const auto record = header ? reader.next() : std::nullopt) {
+    try {
+      check_width(header->cells, *record);
+      read(Row{header->cells, record->cells});
+    } catch (const std::exception& error) {
+      throw Error{fmt::format("{}:{}: {}", table.string(), record->line, error.what())};
+    }
+  }
 }
 
 }  // namespace trivela::config

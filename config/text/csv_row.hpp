@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -65,5 +67,8 @@ std::vector<std::string> trimmed(const std::vector<std::string>& cells);
 
 /// A record must have as many cells as the header. Throws CellError
 void check_width(const std::vector<std::string>& header, const CsvRecord& record);
+
+/// Calls `read` for each row of a table. Throws Error naming the file, and the line where `read` throws.
+void each_row(const std::filesystem::path& table, const std::function<void(const Row&)>& read);
 
 }  // namespace trivela::config

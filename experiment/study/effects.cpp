@@ -1,6 +1,7 @@
 #include "experiment/study/effects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "evaluator/stats/clustered.hpp"
@@ -10,6 +11,22 @@ namespace trivela::experiment {
 namespace {
 
 double real(std::int64_t n) { return static_cast<double>(n); }
+
+/// What a measure counts.
+struct Share {
+  const char* name;
+  std::int64_t MatchTally::*inside;
+  std::int64_t MatchTally::*of;
+};
+constexpr std::array kShares{
+    // in the order of Measure
+    Share{"on target of kicks [%]", &MatchTally::on_target, &MatchTally::kicks},
+    Share{"on target of kicks [%]", &MatchTally::on_target, &MatchTally::kicks},
+    Share{"on target of 100 opportunities", &MatchTally::on_target, &MatchTally::opportunities},
+    Share{"goals of 100 opportunities", &MatchTally::goals, &MatchTally::opportunities},
+    Share{"bounced of those on target [%]", &MatchTally::bounced, &MatchTally::on_target},
+    Share{"blocked of kicks [%]", &MatchTally::blocked, &MatchTally::kicks},
+    Share{"kicks of 100 opportunities", &MatchTally::kicks, &MatchTally::opportunities}};
 
 bool in_two_matches(const ArmTally& arm, Measure measure) {
   return std::ranges::count_if(arm, [&](const MatchTally& match) { return counts_of(match, measure).n > 0; }) >= 2;
@@ -36,24 +53,11 @@ MatchTally total_of(const ArmTally& matches) {
   return total;
 }
 
+const char* name_of(Measure measure) { return kShares[static_cast<std::size_t>(measure)].name; }
+
 evaluator::stats::Counts counts_of(const MatchTally& tally, Measure measure) {
-  switch (measure) {
-    case Measure::kEfficiency:
-      return {tally.on_target, tally.kicks};
-    case Measure::kUnblocked:
-      return {tally.on_target, tally.kicks - tally.blocked};
-    case Measure::kGoals:
-      return {tally.goals, tally.opportunities};
-    case Measure::kBounced:
-      return {tally.bounced, tally.on_target};
-    case Measure::kBlocked:
-      return {tally.blocked, tally.kicks};
-    case Measure::kKicks:
-      return {tally.kicks, tally.opportunities};
-    case Measure::kPerOpportunity:
-      break;
-  }
-  return {tally.on_target, tally.opportunities};
+  const Share& share = kShares[static_cast<std::size_t>(measure)];
+  return {tally.*share.inside, tally.*share.of - (measure == Measure::kUnblocked ? tally.blocked : 0)};
 }
 
 Effect contrast(std::span<const Term> terms, Measure measure) {
@@ -98,17 +102,12 @@ Effect share_of(const ArmTally& matches, Measure measure) {
 
 Effect kick_ratio(const ArmTally& older, const ArmTally& newer) {
   const double n1 = real(total_of(older).kicks), n2 = real(total_of(newer).kicks);
-  const double none = std::nan("");
-  if (n1 == 0.0) return {none, {none, none}};
-  if (!in_two_matches(older, Measure::kEfficiency) || !in_two_matches(newer, Measure::kEfficiency)) {
-    return {n2 / n1, {none, none}};
-  }
+  const bool in_matches = in_two_matches(older, Measure::kEfficiency) && in_two_matches(newer, Measure::kEfficiency);
+  const double ratio = n1 == 0.0 ? std::nan("") : n2 / n1;
   std::vector<double> influences(older.size());
-  for (std::size_t m = 0; m < older.size(); ++m) {
-    influences[m] = real(newer[m].kicks) / n2 - real(older[m].kicks) / n1;
-  }
-  const double reach = half_width_of(older, influences);
-  return {n2 / n1, {n2 / n1 * std::exp(-reach), n2 / n1 * std::exp(reach)}};
+  for (std::size_t m = 0; m < older.size(); ++m) influences[m] = real(newer[m].kicks) / n2 - real(older[m].kicks) / n1;
+  const double reach = in_matches ? half_width_of(older, influences) : std::nan("");
+  return {ratio, {ratio * std::exp(-reach), ratio * std::exp(reach)}};
 }
 
 Effect jackknife(const std::vector<const ArmTally*>& arms,

@@ -34,6 +34,9 @@ bool has_interval(const Effect& effect);
 
 MatchTally total_of(const ArmTally& matches);
 
+/// For a chart: "kicks of 100 opportunities".
+const char* name_of(Measure measure);
+
 /// The measure's counts of one match.
 evaluator::stats::Counts counts_of(const MatchTally& tally, Measure measure);
 

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "evaluator/render/text_table.hpp"
@@ -15,89 +16,61 @@ namespace {
 
 using kicking::PolicyName;
 
+// What the paper observed: Table 2 (34 of 65 and 100 of 132 kicks on target).
+constexpr evaluator::stats::Counts kPaperOlder{34, 65}, kPaperNewer{100, 132};
+constexpr double kPaperKickRatio = 132.0 / 65.0;
+
 constexpr std::array kLaws{"paper", "released", "exact"};
+constexpr std::size_t kCells = 14;
 
-using Weight = double (*)(const StudyRow&);
+/// A main effect or an interaction: a sum of the cells with these signs, divided by `of`.
+struct CellEffect {
+  const char* key;
+  double of;
+  std::string_view signs;  ///< + - 0; old table: stopped with each law, moving with each, predictive; new one the same
+  const char* what;        ///< is subtracted from what, averaged over what
+};
+constexpr CellEffect kEffects[]{
+    {"calibration", 6.0, "------0++++++0", "new - old table, over stopped, moving and laws"},
+    {"motion", 6.0, "---+++0---+++0", "moving - stopped, over tables and laws"},
+    {"released_law", 4.0, "-+0-+00-+0-+00", "released - paper law, over tables, stopped and moving"},
+    {"exact_law", 4.0, "-0+-0+0-0+-0+0", "exact - paper law, over tables, stopped and moving"},
+    {"calibration_x_motion", 3.0, "+++---0---+++0", "motion with the new table - motion with the old one, over laws"},
+    {"exact_law_x_motion", 2.0, "+0--0+0+0--0+0", "motion with the exact law - motion with the paper's, over tables"},
+    {"prediction", 2.0, "00000-+00000-+", "predictive - moving with the exact law, over tables"},
+    {"calibration_x_prediction", 1.0, "00000+-00000-+", "prediction with the new table - prediction with the old one"},
+    {"gain", 3.0, "---0000000+++0", "new table and moving - old one and stopped, over laws: calibration + motion"}};
 
-double table_sign(const StudyRow& row) { return row.label("table") == "new" ? 1.0 : -1.0; }
-
-/// +1 moving, -1 stopped, 0 predictive.
-double motion_sign(const StudyRow& row) {
-  const std::string& policy = row.label("policy");
-  return policy == "moving" ? 1.0 : policy == "stopped" ? -1.0 : 0.0;
-}
-
-/// +1 the law, -1 the paper's, 0 other laws and predictive.
-double law_sign(const StudyRow& row, const char* law) {
-  return row.label("law") == law ? 1.0 : row.label("law") == "paper" ? -1.0 : 0.0;
-}
-
-/// +1 predictive, -1 moving with the exact law, 0 the others.
-double prediction_sign(const StudyRow& row) {
-  if (row.label("policy") == "predictive") return 1.0;
-  return row.label("policy") == "moving" && row.label("law") == "exact" ? -1.0 : 0.0;
-}
-
-Effect weighted(const std::vector<StudyRow>& rows, const Weight& weight, Measure measure) {
+Effect effect_of(const CellEffect& effect, const std::vector<StudyRow>& rows, Measure measure) {
   std::vector<Term> terms;
-  for (const StudyRow& row : rows) {
-    if (row.label("kind") != "cell") continue;
-    if (const double w = weight(row); w != 0.0) terms.push_back({&row.matches, w});
-  }
+  for (std::size_t i = 0; i < kCells; ++i)
+    if (effect.signs[i] != '0') terms.push_back({&rows[i].matches, (effect.signs[i] == '+' ? 1.0 : -1.0) / effect.of});
   return contrast(terms, measure);
 }
 
-struct EffectOfWeights {
-  const char* key;
-  const char* what;
-  Weight weight;
-};
-constexpr std::array kEffects{
-    EffectOfWeights{"calibration", "new - old table, over stopped, moving and laws",
-                    [](const StudyRow& row) { return table_sign(row) * std::abs(motion_sign(row)) / 6.0; }},
-    EffectOfWeights{"motion", "moving - stopped, over tables and laws",
-                    [](const StudyRow& row) { return motion_sign(row) / 6.0; }},
-    EffectOfWeights{"released_law", "released - paper law, over tables, stopped and moving",
-                    [](const StudyRow& row) { return law_sign(row, "released") / 4.0; }},
-    EffectOfWeights{"exact_law", "exact - paper law, over tables, stopped and moving",
-                    [](const StudyRow& row) { return law_sign(row, "exact") / 4.0; }},
-    EffectOfWeights{"calibration_x_motion", "motion with the new table - motion with the old one, over laws",
-                    [](const StudyRow& row) { return table_sign(row) * motion_sign(row) / 3.0; }},
-    EffectOfWeights{"exact_law_x_motion", "motion with the exact law - motion with the paper's, over tables",
-                    [](const StudyRow& row) { return law_sign(row, "exact") * motion_sign(row) / 2.0; }},
-    EffectOfWeights{"prediction", "predictive - moving with the exact law, over tables",
-                    [](const StudyRow& row) { return prediction_sign(row) / 2.0; }},
-    EffectOfWeights{"calibration_x_prediction", "prediction with the new table - prediction with the old one",
-                    [](const StudyRow& row) { return table_sign(row) * prediction_sign(row); }},
-    EffectOfWeights{
-        "gain", "new table and moving - old one and stopped, over laws: calibration + motion",
-        [](const StudyRow& row) { return table_sign(row) == motion_sign(row) ? table_sign(row) / 3.0 : 0.0; }}};
-
 /// Both sides of the paper's comparison under one assumption.
-struct SweepPoint {
-  const StudyRow* older;
-  const StudyRow* newer;
-  double value_m;  ///< of the label that is swept
-
-  Effect kick_ratio() const { return experiment::kick_ratio(older->matches, newer->matches); }
+struct Pair {
+  const StudyRow& older;
+  const StudyRow& newer;
+  Effect kick_ratio;
 };
 
-/// Of pairs of rows of a kind, by a label.
-std::vector<SweepPoint> sweep_of(const std::vector<StudyRow>& rows, const std::string& kind, const std::string& label) {
-  std::vector<SweepPoint> sweep;
-  for (std::size_t i = 0; i + 1 < rows.size(); ++i)
-    if (rows[i].label("kind") == kind && rows[i].label("table") == kOldTable && kind != "cell")
-      sweep.push_back({&rows[i], &rows[i + 1], std::stod(rows[i].label(label))});
-  return sweep;
+std::vector<Pair> pairs_behind_cells(const std::vector<StudyRow>& rows) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = kCells; i + 1 < rows.size(); i += 2)
+    pairs.push_back({rows[i], rows[i + 1], kick_ratio(rows[i].matches, rows[i + 1].matches)});
+  return pairs;
 }
 
-/// Where the number of an effect first meets the paper's kick ratio; none: nowhere.
-std::optional<double> meets(const std::vector<SweepPoint>& sweep, double (*number)(const Effect&)) {
-  for (std::size_t i = 1; i < sweep.size(); ++i) {
-    const double before = number(sweep[i - 1].kick_ratio()) - kPaperKickRatio;
-    const double after = number(sweep[i].kick_ratio()) - kPaperKickRatio;
+/// Where in the sweep the number of a kick ratio first meets the paper's [m]; none: nowhere.
+std::optional<double> meets(const std::vector<Pair>& pairs, double (*number)(const Effect&)) {
+  const auto is_swept = [](const Pair& pair) { return pair.older.label("kind") == "sweep"; };
+  const auto median_m = [](const Pair& pair) { return std::stod(pair.older.label("opponent_median_m")); };
+  for (std::size_t i = 1; i < pairs.size() && is_swept(pairs[i]); ++i) {
+    const double before = number(pairs[i - 1].kick_ratio) - kPaperKickRatio;
+    const double after = number(pairs[i].kick_ratio) - kPaperKickRatio;
     if (!(before * after <= 0.0) || before == after) continue;
-    return std::lerp(sweep[i - 1].value_m, sweep[i].value_m, before / (before - after));
+    return std::lerp(median_m(pairs[i - 1]), median_m(pairs[i]), before / (before - after));
   }
   return std::nullopt;
 }
@@ -107,34 +80,34 @@ bool within_paper(const Effect& share, evaluator::stats::Counts paper) {
   return share.value >= ci.lo && share.value <= ci.hi;
 }
 
-void add_effects(StudyAnswer& answer, const std::vector<NamedEffect>& effects) {
+void add_effects(StudyAnswer& answer, const std::vector<StudyRow>& rows, Measure efficiency) {
   std::vector<std::vector<std::string>> table{{"effect [points]", "efficiency", "on target/opp."}};
   std::string legend;
-  for (const NamedEffect& effect : effects) {
-    table.push_back({effect.key, points_text(effect.efficiency), points_text(effect.per_opportunity)});
+  for (const CellEffect& effect : kEffects) {
+    const Effect of_kicks = effect_of(effect, rows, efficiency);
+    const Effect of_opportunities = effect_of(effect, rows, Measure::kPerOpportunity);
+    table.push_back({effect.key, points_text(of_kicks), points_text(of_opportunities)});
     legend += fmt::format("  {}: {}\n", effect.key, effect.what);
     answer.more["effects"].push_back({{"effect", effect.key},
                                       {"of", effect.what},
-                                      {"efficiency", json_of(effect.efficiency)},
-                                      {"on_target_per_opportunity", json_of(effect.per_opportunity)}});
+                                      {"efficiency", json_of(of_kicks)},
+                                      {"on_target_per_opportunity", json_of(of_opportunities)}});
   }
   answer.text +=
       '\n' + evaluator::text_table(table) + legend + "It says nothing about why the paper's tournaments differed.\n";
 }
 
 /// A line a point and way to count blocked kicks.
-void add_pairs(StudyAnswer& answer, const std::vector<SweepPoint>& points) {
+void add_pairs(StudyAnswer& answer, const std::vector<Pair>& pairs) {
   std::vector<std::vector<std::string>> table{{"opponents [m]", "eye's common error [m]", "blocked", "kick ratio",
                                                "old stopped [%]", "new moving [%]", "both within the paper's"}};
-  for (const auto& [older, newer, value_m] : points) {
+  for (const auto& [older, newer, ratio] : pairs) {
     for (const auto& [blocked, measure] :
          {std::pair{"outside", Measure::kEfficiency}, std::pair{"apart", Measure::kUnblocked}}) {
-      const Effect before = share_of(older->matches, measure), after = share_of(newer->matches, measure);
-      const Effect ratio = kick_ratio(older->matches, newer->matches);
+      const Effect before = share_of(older.matches, measure), after = share_of(newer.matches, measure);
       const bool within = within_paper(before, kPaperOlder) && within_paper(after, kPaperNewer);
-      const std::string &median = older->label("opponent_median_m"), &bias = older->label("eye_bias_m");
-      table.push_back({median, bias.empty() ? "-" : bias, blocked,
-                       effect_text(ratio, [](double value) { return fmt::format("{:.2f}", value); }),
+      const std::string &median = older.label("opponent_median_m"), &bias = older.label("eye_bias_m");
+      table.push_back({median, bias.empty() ? "-" : bias, blocked, effect_text(ratio, 1.0, "{:.2f}"),
                        share_text(before), share_text(after), within ? "yes" : "no"});
       answer.more["pair"].push_back({{"opponent_median_m", std::stod(median)},
                                      {"eye_bias_m", bias.empty() ? Json() : Json(std::stod(bias))},
@@ -149,27 +122,28 @@ void add_pairs(StudyAnswer& answer, const std::vector<SweepPoint>& points) {
                              evaluator::text_table(table));
 }
 
-void add_ratio(StudyAnswer& answer, const RatioMet& met) {
+void add_ratio(StudyAnswer& answer, const std::vector<Pair>& pairs) {
+  const auto at_m = meets(pairs, [](const Effect& ratio) { return ratio.value; });
+  auto from_m = meets(pairs, [](const Effect& ratio) { return ratio.ci.lo; });
+  auto to_m = meets(pairs, [](const Effect& ratio) { return ratio.ci.hi; });
+  if (from_m && to_m && *from_m > *to_m) std::swap(from_m, to_m);
   const auto text = [](const std::optional<double>& value_m) {
     return value_m ? fmt::format("{:.2f} m", *value_m) : std::string{"beyond the sweep"};
   };
-  answer.text += fmt::format("The paper's kick ratio is met at: {} (95 %: {} to {})\n", text(met.at_m),
-                             text(met.from_m), text(met.to_m));
-  answer.more["sweep"] = {{"ratio_at_m", evaluator::json_of(met.at_m)},
-                          {"ratio_from_m", evaluator::json_of(met.from_m)},
-                          {"ratio_to_m", evaluator::json_of(met.to_m)}};
+  answer.text +=
+      fmt::format("The paper's kick ratio is met at: {} (95 %: {} to {})\n", text(at_m), text(from_m), text(to_m));
+  answer.more["sweep"] = {{"ratio_at_m", evaluator::json_of(at_m)},
+                          {"ratio_from_m", evaluator::json_of(from_m)},
+                          {"ratio_to_m", evaluator::json_of(to_m)}};
 }
 
 StudyAnswer answer_of(const Study&, const std::vector<StudyRow>& rows, const StudyPlayed& played) {
-  std::vector<StudyRow> cells;
-  std::ranges::copy_if(rows, std::back_inserter(cells), [](const auto& row) { return row.label("kind") == "cell"; });
+  const std::vector<StudyRow> cells(rows.begin(), rows.begin() + kCells);
   StudyAnswer answer{.svg = chart_of(cells, "table", {played.efficiency, Measure::kPerOpportunity}, {})};
-  add_effects(answer, effects_of(rows, played.efficiency));
-  std::vector<SweepPoint> points = sweep_of(rows, "sweep", "opponent_median_m");
-  const bool swept = !points.empty();
-  for (const SweepPoint& point : sweep_of(rows, "bias", "eye_bias_m")) points.push_back(point);
-  if (!points.empty()) add_pairs(answer, points);
-  if (swept) add_ratio(answer, ratio_met(rows));
+  add_effects(answer, rows, played.efficiency);
+  const std::vector<Pair> pairs = pairs_behind_cells(rows);
+  if (!pairs.empty()) add_pairs(answer, pairs);
+  if (!pairs.empty() && pairs.front().older.label("kind") == "sweep") add_ratio(answer, pairs);
   return answer;
 }
 
@@ -197,24 +171,6 @@ void add_cell(StudyWorld& world, const char* kind, const Arm& like, const std::s
 }  // namespace
 
 std::vector<std::string> factorial_laws() { return {kLaws.begin(), kLaws.end()}; }
-
-std::vector<NamedEffect> effects_of(const std::vector<StudyRow>& rows, Measure efficiency) {
-  std::vector<NamedEffect> effects;
-  effects.reserve(kEffects.size());
-  for (const auto& [key, what, weight] : kEffects)
-    effects.push_back(
-        {key, what, weighted(rows, weight, efficiency), weighted(rows, weight, Measure::kPerOpportunity)});
-  return effects;
-}
-
-RatioMet ratio_met(const std::vector<StudyRow>& rows) {
-  const auto sweep = sweep_of(rows, "sweep", "opponent_median_m");
-  RatioMet met{meets(sweep, [](const Effect& ratio) { return ratio.value; }),
-               meets(sweep, [](const Effect& ratio) { return ratio.ci.lo; }),
-               meets(sweep, [](const Effect& ratio) { return ratio.ci.hi; })};
-  if (met.from_m && met.to_m && *met.from_m > *met.to_m) std::swap(met.from_m, met.to_m);
-  return met;
-}
 
 Study factorial_study(const sim::Scenario& scenario, const Arm& like, const std::string& law,
                       const std::vector<double>& opponent_medians_m, const std::vector<double>& eye_biases_m) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "config/text/error.hpp"
@@ -11,16 +12,10 @@
 namespace trivela::experiment {
 namespace {
 
-/// An input with the value that the scenario, or the first arm's settings, have.
-struct Known {
-  UncertainInput input;
-  std::string value;
-  double largest = 0.0;  ///< change by it, without its sign
-};
-
-/// Gives rows behind the first world's, `arms` a world, what they change of its differences, and the inputs the
-/// largest change.
-void compare(std::vector<StudyRow>& rows, std::size_t arms, Measure measure, std::vector<Known>& inputs) {
+/// Gives rows behind the first world's, `arms` a world, what they change of its differences. The largest change by each
+/// input, without its sign; beyond all that of none.
+std::map<std::string, double> compare(std::vector<StudyRow>& rows, std::size_t arms, Measure measure) {
+  std::map<std::string, double> largest{{"", std::numeric_limits<double>::infinity()}};
   for (std::size_t i = arms; i < rows.size(); ++i) {
     const std::size_t arm = i % arms;
     if (arm == 0) continue;
@@ -29,17 +24,10 @@ void compare(std::vector<StudyRow>& rows, std::size_t arms, Measure measure, std
                           {&rows[arm].matches, -1.0},
                           {&rows[arm - 1].matches, 1.0}};
     rows[i].changes = {contrast(terms, measure)};
-    for (Known& known : inputs)
-      if (known.input.key == rows[i].label("input"))
-        known.largest = std::max(known.largest, std::abs(rows[i].changes[0].value));
+    double& change = largest[rows[i].label("input")];
+    change = std::max(change, std::abs(rows[i].changes[0].value));
   }
-}
-
-/// The first world's rows, then those of each input.
-void sort(std::vector<StudyRow>& rows, const std::vector<Known>& inputs) {
-  std::map<std::string, std::size_t> places{{"", 0}};
-  for (const Known& known : inputs) places.emplace(known.input.key, places.size());
-  std::ranges::stable_sort(rows, {}, [&](const StudyRow& row) { return places.at(row.label("input")); });
+  return largest;
 }
 
 Json value_of_text(const std::string& text) {
@@ -47,11 +35,13 @@ Json value_of_text(const std::string& text) {
   return number.is_discarded() ? Json(text) : number;
 }
 
-StudyAnswer answer_of(const Study& study, std::vector<StudyRow>& rows, Measure measure, std::vector<Known> inputs) {
-  const std::size_t arms = study.worlds.front().arms.size();
-  compare(rows, arms, measure, inputs);
-  std::ranges::stable_sort(inputs, std::ranges::greater{}, &Known::largest);
-  sort(rows, inputs);
+StudyAnswer answer_of(const Study& study, std::vector<StudyRow>& rows, Measure measure,
+                      std::vector<UncertainInput> inputs) {
+  const StudyWorld& usual = study.worlds.front();
+  const std::size_t arms = usual.arms.size();
+  auto largest = compare(rows, arms, measure);
+  std::ranges::stable_sort(inputs, std::ranges::greater{}, [&](const auto& input) { return largest[input.key]; });
+  std::ranges::stable_sort(rows, std::ranges::greater{}, [&](const auto& row) { return largest[row.label("input")]; });
   const bool goals = measure == Measure::kGoals;
   StudyAnswer answer{
       .text = fmt::format("\n{} per 100 opportunities; no robot is calibrated again:\n",
@@ -67,7 +57,8 @@ StudyAnswer answer_of(const Study& study, std::vector<StudyRow>& rows, Measure m
     answer.more["headlines"].push_back(std::move(line));
   }
   answer.text += "Instead of the values above it is:\n";
-  for (const auto& [input, value, largest] : inputs) {
+  for (const UncertainInput& input : inputs) {
+    const std::string value = value_of({usual.scenario, usual.arms.front().settings}, input.key);
     answer.text += fmt::format("  {} = {} ({})\n", input.key, value, input.why);
     answer.more["inputs"].push_back({{"input", input.key}, {"value", value_of_text(value)}, {"why", input.why}});
   }
@@ -82,33 +73,30 @@ Study sensitivity_study(const sim::Scenario& scenario, const std::vector<Arm>& a
   Study study{.name = "sensitivity",
               .whom = "arm and value",
               .changes = {{"change", "change of the difference to the arm before"}}};
-  const auto add = [&](const std::string& what, const std::string& key, const std::string& value,
-                       const sim::Scenario& world) -> std::vector<Arm>& {
-    StudyWorld& added = study.worlds.emplace_back(StudyWorld{what, world, arms});
-    for (const Arm& arm : arms) added.labels.push_back({{"input", key}, {"value", value}, {"arm", arm.name}});
-    return added.arms;
+  const auto add = [&](const std::string& key, const std::string& value) {
+    StudyWorld world{key.empty() ? "the scenario" : fmt::format("{} = {}", key, value), scenario, arms};
+    for (Arm& arm : world.arms) {
+      world.labels.push_back({{"input", key}, {"value", value}, {"arm", arm.name}});
+      if (key.empty()) continue;
+      Inputs changed = with({scenario, std::move(arm.settings)}, key, value);
+      arm.settings = std::move(changed.settings);
+      world.scenario = std::move(changed.scenario);
+    }
+    study.worlds.push_back(std::move(world));
   };
-  add("the scenario", "", "", scenario);
-  std::vector<Known> known;
+  add("", "");
   for (const UncertainInput& input : inputs) {
-    const bool setting = is_setting(input.key);
-    known.push_back({input, setting ? value_of(arms.front().settings, input.key) : value_of(scenario, input.key)});
+    const std::string usual = value_of({scenario, arms.front().settings}, input.key);
     for (const std::string& value : {input.low, input.high}) {
-      const std::string what = fmt::format("{} = {}", input.key, value);
-      if (value == known.back().value) continue;
-      if (setting) {
-        for (Arm& arm : add(what, input.key, value, scenario)) arm.settings = with(arm.settings, input.key, value);
-        continue;
-      }
       try {
-        add(what, input.key, value, with(scenario, input.key, value));
+        if (value != usual) add(input.key, value);
       } catch (const config::Error& error) {
         left_out(error.what());
       }
     }
   }
   study.answer = [=](const Study& asked, std::vector<StudyRow>& rows, const StudyPlayed&) {
-    return answer_of(asked, rows, measure, known);
+    return answer_of(asked, rows, measure, inputs);
   };
   return study;
 }

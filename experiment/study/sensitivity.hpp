@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "config/settings.hpp"
@@ -27,17 +26,17 @@ std::vector<UncertainInput> load_inputs(const std::string& path);
 /// Whether it can change anything: a keeper's where there is one, defenders' where there are some, all others always.
 bool in_force(const sim::Scenario& scenario, const UncertainInput& input);
 
-/// Is it a setting of the policies?
-bool is_setting(std::string_view key);
+/// What has the inputs: a world, and how an arm plays in it.
+struct Inputs {
+  sim::Scenario scenario{};
+  config::Settings settings{};
+};
 
 /// The value of `key` in the unit of its name, a law's name. Throws config::Error for a key that is neither there.
-std::string value_of(const sim::Scenario& scenario, const std::string& key);
-std::string value_of(const config::Settings& settings, const std::string& key);
+std::string value_of(const Inputs& inputs, const std::string& key);
 
-/// The scenario, or the settings, with another value there. Throws config::Error as value_of(), and for a value that
-/// is refused there.
-sim::Scenario with(sim::Scenario scenario, const std::string& key, const std::string& value);
-config::Settings with(config::Settings settings, const std::string& key, const std::string& value);
+/// With another value there. Throws config::Error as value_of(), and for a value that is refused there.
+Inputs with(Inputs inputs, const std::string& key, const std::string& value);
 
 /// Each input at its low and its high value, one at a time: how far that changes the difference between each arm and
 /// the one before it. Inputs that change one the most come first. A value that the scenario has is not played; one for

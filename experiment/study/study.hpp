@@ -10,6 +10,28 @@
 
 namespace trivela::experiment {
 
+/// What tells a row of a study from the others: "threshold", with a text; empty: this row has none.
+struct RowLabel {
+  std::string key;
+  std::string text;
+};
+using RowLabels = std::vector<RowLabel>;  ///< of the same keys in all rows of a study
+
+/// A comparison of a row with others: its name as a path in JSON ("minus_first/efficiency"), and for people.
+struct RowChange {
+  std::string key;
+  std::string heading;
+};
+
+/// An arm in a world of a study, and its matches.
+struct StudyRow {
+  RowLabels labels;
+  ArmTally matches;
+  std::vector<Effect> changes{};  ///< in the order of the study's; empty: it is what others are compared with
+
+  const std::string& label(const std::string& key) const;
+};
+
 /// A world of a study, and who plays it: all arms meet the same opportunities.
 struct StudyWorld {
   std::string what;  ///< "opponents at 2 m"; tells it from the study's other worlds

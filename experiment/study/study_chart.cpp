@@ -19,19 +19,6 @@ struct Mark {
   Effect effect;
 };
 
-const char* name(Measure measure) {
-  switch (measure) {
-    case Measure::kKicks:
-      return "kicks of 100 opportunities";
-    case Measure::kPerOpportunity:
-      return "on target of 100 opportunities";
-    case Measure::kGoals:
-      return "goals of 100 opportunities";
-    default:
-      return "on target of kicks [%]";
-  }
-}
-
 /// The place of a text among those that there are, with this one.
 std::size_t place_of(const std::string& text, std::vector<std::string>& texts) {
   const auto found = std::ranges::find(texts, text);
@@ -127,7 +114,7 @@ std::string chart_of(const std::vector<StudyRow>& rows, const std::string& serie
       mark.effect = measured ? share_of(rows[i].matches, measures[panel]) : rows[i].changes[change];
       if (std::isfinite(mark.effect.value)) marks.push_back(mark);
     }
-    svg += panel_of(measured ? name(measures[panel]) : changes[change].heading + " [points]", marks, names,
+    svg += panel_of(measured ? name_of(measures[panel]) : changes[change].heading + " [points]", marks, names,
                     left + (kPanel + kGap) * static_cast<double>(panel));
   }
   return svg + "</svg>\n";

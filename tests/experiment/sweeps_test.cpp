@@ -36,9 +36,7 @@ const std::vector<UncertainInput>& uncertain_inputs() {
   return inputs;
 }
 
-std::string default_of(const std::string& key) {
-  return is_setting(key) ? value_of(config::Settings{}, key) : value_of(sim::Scenario{}, key);
-}
+std::string default_of(const std::string& key) { return value_of({}, key); }
 
 TEST(UncertainInputs, AreNumbersWithPlayableEndsOnBothSidesOrAtTheValue) {
   std::set<std::string> keys;
@@ -47,9 +45,7 @@ TEST(UncertainInputs, AreNumbersWithPlayableEndsOnBothSidesOrAtTheValue) {
     EXPECT_TRUE(keys.insert(input.key).second);
     EXPECT_GT(input.why.size(), 4U);
     for (const std::string& end : {input.low, input.high})
-      EXPECT_EQ(is_setting(input.key) ? value_of(with(config::Settings{}, input.key, end), input.key)
-                                      : value_of(with(sim::Scenario{}, input.key, end), input.key),
-                end);
+      EXPECT_EQ(value_of(with({}, input.key, end), input.key), end);
     const std::string value = default_of(input.key);
     if (value.find_first_not_of("0123456789.-e") != std::string::npos) continue;  // a law
     EXPECT_LE(std::stod(input.low), std::stod(value));
@@ -73,21 +69,20 @@ TEST(UncertainInputs, HoldEverySettingThatIsTunedAndTheHandTables) {
 }
 
 TEST(UncertainInputs, NameTheLawsOfThePolicies) {
-  const config::Settings changed = with(config::Settings{}, "policy.height_law", "extended_range");
-  EXPECT_EQ(changed.policy.height_law, kicking::HeightLaw::kExtendedRange);
+  const Inputs changed = with({}, "policy.height_law", "extended_range");
+  EXPECT_EQ(changed.settings.policy.height_law, kicking::HeightLaw::kExtendedRange);
   EXPECT_EQ(value_of(changed, "policy.height_law"), "extended_range");
-  EXPECT_NEAR(with(config::Settings{}, "policy.aim_tolerance_deg", "3").policy.aim_tolerance_rad, 3.0 * M_PI / 180.0,
-              1e-15);
+  EXPECT_NEAR(with({}, "policy.aim_tolerance_deg", "3").settings.policy.aim_tolerance_rad, 3.0 * M_PI / 180.0, 1e-15);
   for (const auto& [key, value] : {std::pair{"policy.height_law", "released"}, {"policy.settle_s", "-1"}})
-    EXPECT_THROW(with(config::Settings{}, key, value), config::Error) << key;
-  EXPECT_THROW(value_of(config::Settings{}, "policy.settle"), config::Error);
+    EXPECT_THROW(with({}, key, value), config::Error) << key;
+  EXPECT_THROW(value_of({}, "policy.settle"), config::Error);
 }
 
 TEST(UncertainInputs, ChangeOneNumberAndNothingElse) {
-  const sim::Scenario changed = with(sim::Scenario{}, "kicker.direction_sd_deg", "3");
-  EXPECT_NEAR(changed.kicker.direction_sd_rad, 3.0 * M_PI / 180.0, 1e-15);
+  const Inputs changed = with({}, "kicker.direction_sd_deg", "3");
+  EXPECT_NEAR(changed.scenario.kicker.direction_sd_rad, 3.0 * M_PI / 180.0, 1e-15);
   for (const UncertainInput& input : uncertain_inputs()) {
-    if (input.key != "kicker.direction_sd_deg" && !is_setting(input.key)) {
+    if (input.key != "kicker.direction_sd_deg") {
       EXPECT_EQ(value_of(changed, input.key), default_of(input.key)) << input.key;
     }
   }
@@ -130,8 +125,8 @@ TEST(UncertainInputs, OfATableThatIsWrongAreRefusedWithTheLine) {
 
 TEST(UncertainInputs, RefuseKeysAndValuesThatAreNone) {
   for (const char* key : {"kicker.delay", "delay_s", "kicker.powers"})
-    EXPECT_THROW(value_of(sim::Scenario{}, key), config::Error) << key;
-  EXPECT_THROW(with(sim::Scenario{}, "opponent.count", "2.5"), config::Error);
+    EXPECT_THROW(value_of({}, key), config::Error) << key;
+  EXPECT_THROW(with({}, "opponent.count", "2.5"), config::Error);
 }
 
 /// The rows of a study: its worlds' labels, with these matches.
