@@ -45,8 +45,7 @@ struct Arms : StudyFlags {
   std::string arms = "stopped@old,stopped,moving,predictive";
 
   void add_options(CLI::App& verb) {
-    verb.add_option("--arms", arms, "Policies, e.g. stopped,moving,predictive, or a file of arms (.toml)")
-        ->capture_default_str();
+    add_default(verb, "--arms", arms, "Policies, e.g. stopped,moving,predictive, or a file of arms (.toml)");
   }
   experiment::Study study(const sim::Scenario& scenario) const {
     return experiment::arms_study(scenario, arms_of(arms, base));
@@ -64,18 +63,14 @@ struct Factorial : StudyFlags {
   bool no_sweep = false;
 
   void add_options(CLI::App& verb) {
-    verb.add_option("--opponent-median", opponent_medians_m, "Opponents' median distances of the sweep [m]")
-        ->delimiter(',')
-        ->check(CLI::Range(0.3, 50.0))
-        ->capture_default_str();
-    verb.add_option("--eye-bias", eye_biases_m,
-                    "Second sweep: what seems right to the old table's maker is so much too high [m]")
-        ->delimiter(',')
-        ->check(CLI::Range(-0.5, 1.0))
-        ->capture_default_str();
-    verb.add_option("--law", law, "Law of both sides of the sweeps")
-        ->check(CLI::IsMember(experiment::factorial_laws()))
-        ->capture_default_str();
+    add_default(verb, "--opponent-median", opponent_medians_m, "Opponents' median distances of the sweep [m]",
+                CLI::Range(0.3, 50.0))
+        ->delimiter(',');
+    add_default(verb, "--eye-bias", eye_biases_m,
+                "Second sweep: what seems right to the old table's maker is so much too high [m]",
+                CLI::Range(-0.5, 1.0))
+        ->delimiter(',');
+    add_default(verb, "--law", law, "Law of both sides of the sweeps", CLI::IsMember(experiment::factorial_laws()));
     verb.add_flag("--no-sweep", no_sweep, "The factorial alone");
   }
   experiment::Study study(const sim::Scenario& scenario) const {
@@ -98,16 +93,13 @@ struct Frontier : StudyFlags {
   std::string beside = config::shipped("arms/baselines.toml").string();
 
   void add_options(CLI::App& verb) {
-    verb.add_option("--policy", policy, "Which is swept")
-        ->check(CLI::IsMember(kicking::policies_where(
-            [](const auto& facts) { return facts.kind == kicking::PolicyKind::kPredictive && !facts.needs_truth(); })))
-        ->capture_default_str();
-    verb.add_option("--threshold", thresholds, "Least probabilities of a ball on target that it fires at")
-        ->delimiter(',')
-        ->check(CLI::Range(0.0, 1.0))
-        ->capture_default_str();
-    verb.add_option("--beside", beside, "Arms beside the frontier and oracle: policies, or a file of arms (.toml)")
-        ->capture_default_str();
+    const auto swept = kicking::policies_where(
+        [](const auto& facts) { return facts.kind == kicking::PolicyKind::kPredictive && !facts.needs_truth(); });
+    add_default(verb, "--policy", policy, "Which is swept", CLI::IsMember(swept));
+    add_default(verb, "--threshold", thresholds, "Least probabilities of a ball on target that it fires at",
+                CLI::Range(0.0, 1.0))
+        ->delimiter(',');
+    add_default(verb, "--beside", beside, "Arms beside the frontier and oracle: policies, or a file of arms (.toml)");
   }
   experiment::Study study(const sim::Scenario& scenario) const {
     std::vector<experiment::Arm> others = arms_of(beside, base);
@@ -128,9 +120,9 @@ struct Robustness : StudyFlags {
 
   void add_options(CLI::App& verb) {
     plan.matches = 200;  // of each arm and world
-    verb.add_option("--arms", arms, "Policies, or a file of arms (.toml)")->capture_default_str();
-    verb.add_option("--rival", rival, "The arm that the others are compared with")->capture_default_str();
-    verb.add_option("--worlds", worlds, "File of the worlds")->type_name("TOML")->capture_default_str();
+    add_default(verb, "--arms", arms, "Policies, or a file of arms (.toml)");
+    add_default(verb, "--rival", rival, "The arm that the others are compared with");
+    add_default(verb, "--worlds", worlds, "File of the worlds")->type_name("TOML");
     verb.add_option("--only", only, "Only these worlds, e.g. keeper,\"twice the drag\"")->delimiter(',');
   }
   experiment::Study study(const sim::Scenario& scenario) const {
@@ -155,10 +147,9 @@ struct Sensitivity : StudyFlags {
 
   void add_options(CLI::App& verb) {
     plan.matches = 200;  // of each value
-    verb.add_option("--arms", arms, "Policies, each compared with the one before it")->capture_default_str();
-    verb.add_option("--inputs", table, "Table of the inputs with their low and high values, and why")
-        ->type_name("CSV")
-        ->capture_default_str();
+    add_default(verb, "--arms", arms, "Policies, each compared with the one before it");
+    add_default(verb, "--inputs", table, "Table of the inputs with their low and high values, and why")
+        ->type_name("CSV");
     verb.add_option("--input", inputs, "Only these, e.g. kicker.delay_s,vision.latency_s")->delimiter(',');
     verb.add_flag("--goals", goals, "Goals past the keeper instead of shots on target");
   }
@@ -182,22 +173,22 @@ struct Sensitivity : StudyFlags {
 };
 
 template <class Question>
+int ask(const Question& question) {
+  return run_study(question, [&](const sim::Scenario& scenario) { return question.study(scenario); });
+}
+
+template <class Question>
 void add_question(CLI::App& study, int& exit_code) {
-  auto* const verb = study.add_subcommand(Question::kName, Question::kAsks);
-  const auto flags = std::make_shared<Question>();
+  const auto [verb, flags] = add_verb(study, exit_code, Question::kName, Question::kAsks, ask<Question>);
   flags->add_options(*verb);
   add_play_options(*verb, *flags);
-  verb->add_option("--blocked", flags->blocked,
-                   "Blocked kicks: outside, as in Table 2, or apart: efficiency is of the others")
-      ->check(CLI::IsMember({"outside", "apart"}))
-      ->capture_default_str();
+  add_default(*verb, "--blocked", flags->blocked,
+              "Blocked kicks: outside, as in Table 2, or apart: efficiency is of the others",
+              CLI::IsMember({"outside", "apart"}));
   verb->add_option("--csv", flags->csv, "Everything that was counted as CSV")->type_name("FILE");
   verb->add_option("--svg", flags->svg, "A chart")->type_name("FILE");
   verb->add_flag("--json", flags->json, "JSON instead of text");
   verb->footer(Question::kMore);
-  verb->callback([flags, &exit_code] {
-    exit_code = run_study(*flags, [&](const sim::Scenario& scenario) { return flags->study(scenario); });
-  });
 }
 
 }  // namespace

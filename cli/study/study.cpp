@@ -9,16 +9,12 @@
 
 namespace trivela::cli {
 
-std::string StudyFlags::scenario_name() const {
-  return world.named(std::filesystem::path{world.file}.filename().string());
-}
-
 void StudyFlags::draw_calibrations(const sim::Scenario& scenario) {
   plan.calibrations = cli::draw_calibrations(scenario, base, {calibrations, plan.seed, plan.jobs}, plan.matches);
 }
 
 experiment::StudyPlayed StudyFlags::played(const sim::Scenario& scenario) const {
-  return {.scenario = scenario_name(),
+  return {.scenario = world.named(std::filesystem::path{world.file}.filename().string()),
           .seed = plan.seed,
           .matches = plan.matches,
           .possessions = plan.possessions,
@@ -45,13 +41,9 @@ void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<expe
 
 void add_play_options(CLI::App& verb, StudyFlags& flags) {
   experiment::PlayPlan& plan = flags.plan;
-  verb.add_option("--matches", plan.matches, "Matches of each arm")
-      ->check(CLI::Range(2, 1000000))
-      ->capture_default_str();
-  verb.add_option("--possessions", plan.possessions, "Opportunities of a match")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  verb.add_option("--seed", plan.seed, "Same seed, same opportunities")->check(seeds())->capture_default_str();
+  add_default(verb, "--matches", plan.matches, "Matches of each arm", CLI::Range(2, 1000000));
+  add_default(verb, "--possessions", plan.possessions, "Opportunities of a match", CLI::Range(1, 10000));
+  add_default(verb, "--seed", plan.seed, "Same seed, same opportunities", seeds());
   verb.add_option("--jobs", plan.jobs, "Threads; default one a core")->check(CLI::Range(1, 256));
   add_world_options(verb, flags.world);
   add_calibrations_option(verb, flags.calibrations);
@@ -66,10 +58,9 @@ void add_play_options(CLI::App& verb, StudyFlags& flags) {
 }
 
 void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations) {
-  verb.add_option("--calibrations", calibrations,
-                  "Simulated calibrations that the robots come from, match m with calibration m mod K; 0: robot files")
-      ->check(CLI::Range(0u, 1000u))
-      ->capture_default_str()
+  add_default(verb, "--calibrations", calibrations,
+              "Simulated calibrations that the robots come from, match m with calibration m mod K; 0: robot files",
+              CLI::Range(0u, 1000u))
       ->type_name("K");
 }
 
@@ -78,7 +69,7 @@ void add_arm_options(CLI::App& verb, experiment::ArmBase& base) {
   base.set_called = "--set";
   verb.add_option("--robot", base.robots, "Robot files, one for each of the team; default: the calibrated ones")
       ->delimiter(',');
-  verb.add_option("--config", base.config, "Settings of the nodes")->capture_default_str();
+  add_default(verb, "--config", base.config, "Settings of the nodes");
   verb.add_option("--set", base.overrides, "One setting on top, e.g. --set policy.settle_s=0.5");
 }
 

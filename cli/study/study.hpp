@@ -1,10 +1,8 @@
 #pragma once
 
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <thread>
 #include <vector>
@@ -30,9 +28,6 @@ struct StudyFlags {
   std::string results;            ///< file that keeps what was played; empty: none
   std::vector<std::string> with;  ///< results of other runs of this study, or of its shards
   bool json = false;
-
-  /// Name of the scenario's file and what was changed of it, for the report.
-  std::string scenario_name() const;
 
   /// Plays the calibrations of the plan's seed into the plan, before its matches.
   void draw_calibrations(const sim::Scenario& scenario);

@@ -53,24 +53,30 @@ std::string command_of(const TuneFlags& flags, std::uint64_t held_out_seed) {
 struct StepPlayed {};
 
 /// Plays the same matches with each of the settings.
-std::vector<experiment::ArmTally> play(StudyRun& run, const sim::Scenario& scenario, const experiment::Arm& arm,
-                                       const std::vector<config::Settings>& settings, const experiment::PlayPlan& plan,
-                                       const std::string& what) {
-  std::vector<experiment::Arm> arms(settings.size(), arm);
-  for (std::size_t i = 0; i < settings.size(); ++i) arms[i].settings = settings[i];
-  auto known = run.play({{what, scenario, arms}}, plan);
+std::vector<experiment::ArmTally> play(StudyRun& run, experiment::StudyWorld world, const experiment::PlayPlan& plan,
+                                       const std::vector<config::Settings>& settings) {
+  world.arms.resize(settings.size(), world.arms.front());
+  for (std::size_t i = 0; i < settings.size(); ++i) world.arms[i].settings = settings[i];
+  const auto known = run.play({world}, plan);
   if (!known.whole) throw StepPlayed{};
   std::vector<experiment::ArmTally> tallies;
-  for (experiment::StudyRow& row : known.rows) tallies.push_back(std::move(row.matches));
+  for (const experiment::StudyRow& row : known.rows) tallies.push_back(row.matches);
   return tallies;
 }
 
-void check(const TuneFlags& flags) {
-  flags.require_writable();
-  require_writable("--out", flags.out);
-  if (flags.plan.shard ? !flags.out.empty() : flags.out.empty())
-    throw UsageError{flags.plan.shard ? "--out and --shard: a part of the matches finds no settings"
-                                      : "--out is required"};
+/// Searches, and plays what was found, and what it began with, on other matches and calibrations.
+void search(StudyRun& run, experiment::Tuning& tuning, experiment::StudyWorld world, const experiment::PlayPlan& plan,
+            const experiment::PlayPlan& held_out, int rounds) {
+  const auto step = [&](const std::vector<config::Settings>& settings) {
+    world.what = fmt::format("{} settings tried, {} changed", tuning.tried, tuning.steps.size());
+    return play(run, world, plan, settings);
+  };
+  const config::Settings start = tuning.settings;
+  experiment::coordinate_search(rounds, step, tuning);
+  world.what = "held out";
+  const auto played = play(run, world, held_out, {start, tuning.settings});
+  tuning.held_out_start = played[0];
+  tuning.held_out_best = played[1];
 }
 
 ExitCode say_step(StudyRun& run, const TuneFlags& flags, bool ended) {
@@ -84,41 +90,38 @@ ExitCode say_step(StudyRun& run, const TuneFlags& flags, bool ended) {
   return ended ? kDone : kDoneWithLoss;
 }
 
-ExitCode write_best(StudyRun& run, const experiment::TuneReport& report, const TuneFlags& flags, bool interrupted) {
-  if (report.state.tried == 0) return run.keep();
-  write_file(flags.out, experiment::to_settings_file(report, flags.out));
-  say(to_text(report) + flags.out + "\n");
-  if (interrupted) {
-    warn(fmt::format("interrupted; {} has the best so far", flags.out));
-    return run.keep();
-  }
+void write_best(const experiment::Tuning& tuning, const TuneFlags& flags) {
+  write_file(flags.out, experiment::to_settings_file(tuning, flags.out));
+  say(to_text(tuning) + flags.out + "\n");
+}
+
+ExitCode run_tuning(StudyRun& run, experiment::Tuning& tuning, const experiment::StudyWorld& world,
+                    const TuneFlags& flags, const experiment::PlayPlan& held_out) try {
+  search(run, tuning, world, flags.plan, held_out, flags.rounds);
+  if (flags.plan.shard) return say_step(run, flags, true);
+  write_best(tuning, flags);
   run.finish();
   return kDone;
-}
-
-/// Searches, and plays what was found, and what it began with, on other matches and calibrations.
-ExitCode search(StudyRun& run, experiment::TuneReport& report, const TuneFlags& flags, const TuneFlags& other,
-                const sim::Scenario& scenario, const experiment::Arm& arm) {
-  experiment::TuneState& state = report.state;
-  try {
-    const auto step = [&](const std::vector<config::Settings>& settings) {
-      return play(run, scenario, arm, settings, flags.plan,
-                  fmt::format("{} settings tried, {} changed", state.tried, state.steps.size()));
-    };
-    const config::Settings start = state.settings;
-    experiment::coordinate_search(report.space, flags.rounds, step, state);
-    auto played = play(run, scenario, arm, {start, state.settings}, other.plan, "held out");
-    report.held_out_start = std::move(played[0]);
-    report.held_out_best = std::move(played[1]);
-  } catch (const StudyRun::Interrupted&) {
-    return flags.plan.shard ? run.keep() : write_best(run, report, flags, true);
-  } catch (const StepPlayed&) {
-    return say_step(run, flags, false);
+} catch (const StepPlayed&) {
+  return say_step(run, flags, false);
+} catch (const StudyRun::Interrupted&) {
+  if (!flags.plan.shard && tuning.tried > 0) {
+    write_best(tuning, flags);
+    warn(fmt::format("interrupted; {} has the best so far", flags.out));
   }
-  return flags.plan.shard ? say_step(run, flags, true) : write_best(run, report, flags, false);
+  return run.keep();
 }
 
-ExitCode study_tune(TuneFlags flags) {
+void check(const TuneFlags& flags) {
+  flags.require_writable();
+  require_writable("--out", flags.out);
+  if (flags.plan.shard ? !flags.out.empty() : flags.out.empty())
+    throw UsageError{flags.plan.shard ? "--out and --shard: a part of the matches finds no settings"
+                                      : "--out is required"};
+}
+
+int study_tune(const TuneFlags& asked) {
+  TuneFlags flags = asked;
   check(flags);
   const sim::Scenario scenario = flags.world.load();
   const experiment::Arm arm = experiment::arms_of(flags.policy, flags.base).front();
@@ -126,29 +129,30 @@ ExitCode study_tune(TuneFlags flags) {
   TuneFlags other = flags;
   other.plan.seed = flags.held_out_seed.value_or(flags.plan.seed + 1);
   if (other.plan.seed == flags.plan.seed) throw UsageError{"--held-out-seed: the same as --seed, nothing is held out"};
-  experiment::TuneReport report{.policy = flags.policy,
-                                .command = command_of(flags, other.plan.seed),
-                                .tuning = flags.played(scenario),
-                                .held_out = other.played(scenario),
-                                .space = space_of(flags, *arm.policy),
-                                .state = {.settings = arm.settings}};
-  report.state.settings.run.scenario = flags.world.file;  // whose best settings they are
+  experiment::Tuning tuning{.policy = flags.policy,
+                            .command = command_of(flags, other.plan.seed),
+                            .tuning = flags.played(scenario),
+                            .held_out = other.played(scenario),
+                            .space = space_of(flags, *arm.policy),
+                            .settings = arm.settings};
+  tuning.settings.run.scenario = flags.world.file;  // whose best settings they are
   flags.draw_calibrations(scenario);
   other.draw_calibrations(scenario);
-  std::string arguments =
-      fmt::format("rounds = {}\nheld_out_seed = {}\n", flags.rounds, other.plan.seed) +
-      experiment::arguments_of({.name = "tune", .whom = "", .worlds = {{"tune", scenario, {arm}, {}}}});
-  for (const experiment::Coordinate& coordinate : report.space)
-    arguments += fmt::format("{}\n", fmt::join(coordinate.choices, "\n"));
+  const experiment::StudyWorld world{"tune", scenario, {arm}};
+  std::string arguments = fmt::format("rounds = {}\nheld_out_seed = {}\n", flags.rounds, other.plan.seed) +
+                          experiment::arguments_of({.name = "tune", .whom = "", .worlds = {world}});
+  for (const experiment::Coordinate& coordinate : tuning.space)
+    for (const experiment::Choice& choice : coordinate.choices)
+      arguments += fmt::format("{}\n", fmt::join(choice, "\n"));
   StudyRun run{flags, "tune", arguments};
-  return search(run, report, flags, other, scenario, arm);
+  return run_tuning(run, tuning, world, flags, other.plan);
 }
 
 }  // namespace
 
 void add_study_tune(CLI::App& study, int& exit_code) {
-  auto* const verb = study.add_subcommand("tune", "Find a policy's best settings in a simulated world");
-  const auto flags = std::make_shared<TuneFlags>();
+  const auto [verb, flags] =
+      add_verb(study, exit_code, "tune", "Find a policy's best settings in a simulated world", study_tune);
   flags->plan.seed = 1001;  // other matches than those of the studies
   flags->plan.possessions = 20;
   flags->calibrations = 20;
@@ -159,9 +163,7 @@ void add_study_tune(CLI::App& study, int& exit_code) {
       ->type_name("FILE");
   verb->add_option("--setting", flags->settings,
                    "Only these, in this order: KEY as in config/default.toml, or KEY=V1|V2 with other values");
-  verb->add_option("--rounds", flags->rounds, "Times at most that each setting is looked at")
-      ->check(CLI::Range(1, 20))
-      ->capture_default_str();
+  add_default(*verb, "--rounds", flags->rounds, "Times at most that each setting is looked at", CLI::Range(1, 20));
   verb->add_option("--held-out-seed", flags->held_out_seed,
                    "Matches and calibrations of the final check; default the next")
       ->check(seeds());
@@ -172,7 +174,6 @@ void add_study_tune(CLI::App& study, int& exit_code) {
       "on other matches and calibrations. Ctrl-C keeps the best so far (exit code 1). A shard plays its part of one "
       "step\n"
       "and ends with exit code 3, with 0 when the search has ended (docs/studies.md).");
-  verb->callback([flags, &exit_code] { exit_code = study_tune(*flags); });
 }
 
 }  // namespace trivela::cli
