@@ -1,5 +1,6 @@
 // A recorded robot decides again. A generator with late and crossing inputs is the witness: it alone knows what its
 // nodes had in each cycle, and the log does not say it.
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
 #include <map>
@@ -13,6 +14,7 @@
 namespace trivela::experiment {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr std::int64_t kMillisecond = 1'000'000;
@@ -177,9 +179,9 @@ class Generator {
   std::int64_t crossings_ = 0;
 };
 
-RobotReplay decide_again(const Generator& made, const tests::Folder& folder,
-                         const std::optional<RobotSetup>& again = {}) {
-  const log::Reader reader{made.write(folder)};
+RobotReplay decide_log_again(const std::filesystem::path& path, const Generator& made, const tests::Folder& folder,
+                             const std::optional<RobotSetup>& again = {}) {
+  const log::Reader reader{path, log::Check::kSchema};
   log::Session session = reader.sessions().front();
   session.replays_uuid = std::exchange(session.uuid, "");
   session.config_toml = "### settings\n";
@@ -187,6 +189,43 @@ RobotReplay decide_again(const Generator& made, const tests::Folder& folder,
   const auto replay = replay_robot({reader, reader.sessions().front().session_id, 1}, made.setup(), again, log, 65536);
   log.finalise();
   return replay;
+}
+
+RobotReplay decide_again(const Generator& made, const tests::Folder& folder,
+                         const std::optional<RobotSetup>& again = {}) {
+  return decide_log_again(made.write(folder), made, folder, again);
+}
+
+/// What it says of a log that somebody has changed.
+std::string refusal_of_changed(const std::string& change) {
+  const tests::Folder folder;
+  const Generator made{1, 0.0, 0.0};
+  const auto path = made.write(folder);
+  SQLite::Database{path.string(), SQLite::OPEN_READWRITE}.exec("PRAGMA ignore_check_constraints = ON; " + change);
+  try {
+    decide_log_again(path, made, folder);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+using Policies = std::vector<kicking::PolicyName>;
+
+/// What it says where the cycles shall be decided by these.
+std::string refusal_of(const Policies& by_half, const Policies& by_robot = {}, const Policies& random = {}) {
+  const tests::Folder folder;
+  const Generator made{1, 0.0, 0.0};
+  RobotSetup other = made.setup();
+  other.settings.kick_decision.policy_by_half = by_half;
+  other.settings.kick_decision.policy_by_robot = by_robot;
+  other.settings.kick_decision.random = random;
+  try {
+    decide_again(made, folder, other);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
 }
 
 TEST(ReplayRobot, WithoutCrossingsEveryDecisionIsTheSame) {
@@ -246,6 +285,35 @@ TEST(ReplayRobot, RefusesABaseThatTheSamplesAreNotOf) {
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("none of its 1500 wheel samples goes with the robot's file: it has 4 wheels"));
   }
+}
+
+TEST(ReplayRobot, RefusesAPolicyThatNeedsTheTruth) {
+  using enum kicking::PolicyName;
+  const std::string why = "the policy oracle needs the simulator's true state, which no recorded stream has";
+  EXPECT_EQ(refusal_of({kOracle}), why);
+  EXPECT_EQ(refusal_of({kMoving, kOracle}), why) << "in the second half";
+  EXPECT_EQ(refusal_of({kMoving}, {kOracle}), why);
+  EXPECT_EQ(refusal_of({kMoving}, {}, {kMoving, kOracle}), why) << "drawn";
+  EXPECT_EQ(refusal_of({kMoving}, {kMoving, kOracle}), "") << "another robot's";
+}
+
+TEST(ReplayRobot, NamesTheColumnOfALogThatHoldsWhatItCannotRead) {
+  EXPECT_THAT(refusal_of_changed("UPDATE kick_decisions SET reason = 'by_whim' WHERE seq = 3"),
+              AllOf(HasSubstr("match.db"), HasSubstr("reason"), HasSubstr("a label of its enum")));
+  EXPECT_THAT(refusal_of_changed("UPDATE referee SET half = 99999999999 WHERE seq = 2"),
+              AllOf(HasSubstr("match.db"), HasSubstr("half"), HasSubstr("a whole number of its range")));
+}
+
+TEST(ReplayRobot, OfALogWithoutTheRobotsRowsDecidesNothing) {
+  const tests::Folder folder;
+  const Generator made{1, 0.0, 0.0};
+  const log::Reader reader{made.write(folder)};
+  log::Session session = reader.sessions().front();
+  session.replays_uuid = std::exchange(session.uuid, "");
+  log::Writer log{folder / "again.db", session};
+  const auto replay = replay_robot({reader, reader.sessions().front().session_id, 2}, made.setup(), {}, log, 65536);
+  EXPECT_EQ(replay.check.cycles, 0);
+  EXPECT_EQ(replay.decisions, 0);
 }
 
 TEST(Distance, CountsWhatDiffersButNumbersOfRows) {
