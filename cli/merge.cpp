@@ -12,7 +12,7 @@
 #include "log/file/log_file.hpp"
 #include "log/file/new_file.hpp"
 #include "log/merge/merge.hpp"
-#include "log/shards/shard_merge.hpp"
+#include "log/shards/shards.hpp"
 
 namespace trivela::cli {
 namespace {

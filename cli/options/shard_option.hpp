@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "log/shards/shard.hpp"
+#include "log/shards/shards.hpp"
 
 namespace trivela::cli {
 

@@ -5,11 +5,9 @@
 #include <memory>
 
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/study/study_run.hpp"
+#include "cli/study/study.hpp"
 #include "config/scenario/worlds.hpp"
-#include "experiment/study/comparisons.hpp"
-#include "experiment/study/factorial.hpp"
-#include "experiment/study/sensitivity.hpp"
+#include "experiment/study/studies.hpp"
 
 namespace trivela::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/study/study_run.hpp"
+#include "cli/study/study.hpp"
 
 #include <fmt/format.h>
 
@@ -22,6 +22,21 @@ std::string free_name(const std::string& name) {
   std::string file = name + ".results.db";
   for (int n = 2; std::filesystem::exists(file); ++n) file = fmt::format("{}-{}.results.db", name, n);
   return file;
+}
+
+void give(const StudyFlags& flags, const experiment::StudyReport& report) {
+  flags.json ? fmt::print("{}", evaluator::json_text(report.json)) : say(report.text);
+  std::fflush(stdout);
+  if (!flags.csv.empty()) write_file(flags.csv, report.csv);
+  if (!flags.svg.empty()) write_file(flags.svg, report.svg);
+}
+
+void say_part(const StudyFlags& flags) {
+  const auto range = log::range_of(flags.plan.shard, flags.plan.matches);
+  fmt::print(
+      "shard {}: matches {} to {} of {} are in {}. For the report give this command --with and the files of all "
+      "shards, in place of --shard and --results\n",
+      flags.plan.shard->text(), range.begin, range.end - 1, flags.plan.matches, flags.results);
 }
 
 }  // namespace
@@ -69,17 +84,6 @@ void StudyRun::finish() {
   results_.commit(!flags_.plan.shard);
 }
 
-namespace {
-
-void give(const StudyFlags& flags, const experiment::StudyReport& report) {
-  flags.json ? fmt::print("{}", evaluator::json_text(report.json)) : say(report.text);
-  std::fflush(stdout);
-  if (!flags.csv.empty()) write_file(flags.csv, report.csv);
-  if (!flags.svg.empty()) write_file(flags.svg, report.svg);
-}
-
-}  // namespace
-
 ExitCode run_study(StudyFlags flags, const std::function<experiment::Study(const sim::Scenario&)>& make) {
   flags.require_writable();
   const sim::Scenario scenario = flags.world.load();
@@ -89,22 +93,13 @@ ExitCode run_study(StudyFlags flags, const std::function<experiment::Study(const
   if (flags.calibrations == 0) warn_of_shared_robots(scenario, arms);
   for (const experiment::Arm& arm : arms) check_playable(scenario, arm, flags.plan.possessions);
   StudyRun run{flags, study.name, arguments_of(study)};
-  std::vector<experiment::StudyRow> rows;
   try {
-    rows = run.play(study.worlds, flags.plan).rows;
+    auto rows = run.play(study.worlds, flags.plan).rows;
+    run.finish();
+    flags.plan.shard ? say_part(flags) : give(flags, report_of(study, std::move(rows), flags.played(scenario)));
   } catch (const StudyRun::Interrupted&) {
     return run.keep();
   }
-  run.finish();
-  if (!flags.plan.shard) {
-    give(flags, report_of(study, std::move(rows), flags.played(scenario)));
-    return kDone;
-  }
-  const auto range = log::range_of(flags.plan.shard, flags.plan.matches);
-  fmt::print(
-      "shard {}: matches {} to {} of {} are in {}. For the report give this command --with and the files of all "
-      "shards, in place of --shard and --results\n",
-      flags.plan.shard->text(), range.begin, range.end - 1, flags.plan.matches, flags.results);
   return kDone;
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "cli/options/number_checks.hpp"
-#include "cli/study/study_run.hpp"
+#include "cli/study/study.hpp"
 #include "config/text/installation.hpp"
 #include "experiment/study/tune/tune.hpp"
 
@@ -64,21 +64,6 @@ std::vector<experiment::ArmTally> play(StudyRun& run, experiment::StudyWorld wor
   return tallies;
 }
 
-/// Searches, and plays what was found, and what it began with, on other matches and calibrations.
-void search(StudyRun& run, experiment::Tuning& tuning, experiment::StudyWorld world, const experiment::PlayPlan& plan,
-            const experiment::PlayPlan& held_out, int rounds) {
-  const auto step = [&](const std::vector<config::Settings>& settings) {
-    world.what = fmt::format("{} settings tried, {} changed", tuning.tried, tuning.steps.size());
-    return play(run, world, plan, settings);
-  };
-  const config::Settings start = tuning.settings;
-  experiment::coordinate_search(rounds, step, tuning);
-  world.what = "held out";
-  const auto played = play(run, world, held_out, {start, tuning.settings});
-  tuning.held_out_start = played[0];
-  tuning.held_out_best = played[1];
-}
-
 ExitCode say_step(StudyRun& run, const TuneFlags& flags, bool ended) {
   run.finish();
   const std::string shard = flags.plan.shard->text();
@@ -95,9 +80,17 @@ void write_best(const experiment::Tuning& tuning, const TuneFlags& flags) {
   say(to_text(tuning) + flags.out + "\n");
 }
 
-ExitCode run_tuning(StudyRun& run, experiment::Tuning& tuning, const experiment::StudyWorld& world,
-                    const TuneFlags& flags, const experiment::PlayPlan& held_out) try {
-  search(run, tuning, world, flags.plan, held_out, flags.rounds);
+/// Searches, and plays what was found, and what it began with, on other matches and calibrations.
+ExitCode search(StudyRun& run, experiment::Tuning& tuning, experiment::StudyWorld world, const TuneFlags& flags,
+                const experiment::PlayPlan& held_out) try {
+  const config::Settings start = tuning.settings;
+  const auto step = [&](const std::vector<config::Settings>& settings) {
+    world.what = fmt::format("{} settings tried, {} changed", tuning.tried, tuning.steps.size());
+    return play(run, world, flags.plan, settings);
+  };
+  experiment::coordinate_search(flags.rounds, step, tuning);
+  world.what = "held out";
+  tuning.held_out_played = play(run, world, held_out, {start, tuning.settings});
   if (flags.plan.shard) return say_step(run, flags, true);
   write_best(tuning, flags);
   run.finish();
@@ -145,7 +138,7 @@ int study_tune(const TuneFlags& asked) {
     for (const experiment::Choice& choice : coordinate.choices)
       arguments += fmt::format("{}\n", fmt::join(choice, "\n"));
   StudyRun run{flags, "tune", arguments};
-  return run_tuning(run, tuning, world, flags, other.plan);
+  return search(run, tuning, world, flags, other.plan);
 }
 
 }  // namespace

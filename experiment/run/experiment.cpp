@@ -11,7 +11,7 @@
 #include "evaluator/render/simulated.hpp"
 #include "experiment/run/arms.hpp"
 #include "experiment/run/match_play.hpp"
-#include "experiment/study/report.hpp"
+#include "experiment/study/effects.hpp"
 #include "log/read/reader.hpp"
 #include "log/schema/digest.hpp"
 #include "log/write/experiment_log.hpp"

@@ -8,7 +8,7 @@
 
 #include "experiment/play/play_match.hpp"
 #include "experiment/run/calibrations.hpp"
-#include "log/shards/shard.hpp"
+#include "log/shards/shards.hpp"
 
 namespace trivela::experiment {
 

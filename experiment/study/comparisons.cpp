@@ -1,4 +1,4 @@
-#include "experiment/study/comparisons.hpp"
+#include "experiment/study/studies.hpp"
 
 #include <fmt/format.h>
 
@@ -20,19 +20,15 @@ StudyAnswer answer_of_arms(const Study& study, std::vector<StudyRow>& rows, cons
   return answer;
 }
 
-bool below_zero(const StudyRow& row) {
-  return std::ranges::any_of(row.changes,
-                             [](const Effect& effect) { return has_interval(effect) && effect.ci.lo < 0.0; });
-}
-
 StudyAnswer answer_of_worlds(const Study& study, std::vector<StudyRow>& rows, std::size_t rival) {
   const std::size_t arms = study.worlds.front().arms.size();
   std::vector<std::size_t> below(arms);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (i % arms == rival) continue;
     const StudyRow& against = rows[i - i % arms + rival];
-    rows[i].changes = {difference(rows[i].matches, against.matches, Measure::kPerOpportunity)};
-    below[i % arms] += below_zero(rows[i]) ? 1 : 0;
+    const Effect change = difference(rows[i].matches, against.matches, Measure::kPerOpportunity);
+    rows[i].changes = {change};
+    below[i % arms] += has_interval(change) && change.ci.lo < 0.0 ? 1 : 0;
   }
   const std::string& name = rows[rival].label("arm");
   StudyAnswer answer{.text = "\nNo robot is calibrated again. Worlds where the interval reaches below 0:\n",
@@ -49,8 +45,7 @@ StudyAnswer answer_of_worlds(const Study& study, std::vector<StudyRow>& rows, st
 bool on_frontier(const StudyRow& row) { return !row.label("threshold").empty(); }
 
 double share(const MatchTally& tally, Measure measure) {
-  const auto counts = counts_of(tally, measure);
-  return static_cast<double>(counts.inside) / static_cast<double>(counts.n);
+  return evaluator::stats::efficiency(counts_of(tally, measure)).value_or(std::nan(""));
 }
 
 /// Shots on target of the best threshold over those of the oracle, the last row; the interval from 0 on.

@@ -2,14 +2,17 @@
 
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "evaluator/render/json_values.hpp"
 #include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/counts/counts.hpp"
 #include "log/shards/study_results.hpp"
 
 namespace trivela::experiment {
 
+using evaluator::Json;
 using log::ArmTally;
 using log::MatchTally;
 
@@ -67,5 +70,22 @@ Effect kick_ratio(const ArmTally& older, const ArmTally& newer);
 /// calibration (cluster_variance()). No interval where it has no finite value without one of the matches.
 Effect jackknife(const std::vector<const ArmTally*>& arms,
                  const std::function<double(const std::vector<MatchTally>&)>& of);
+
+/// "87.8 (87.1 to 88.5)" of `scale` times the numbers by fmt's `form`; "87.8 (-)" without an interval, "-" without a
+/// value.
+std::string effect_text(const Effect& effect, double scale, const std::string& form);
+
+/// A share in per cent.
+std::string share_text(const Effect& effect);
+
+/// A difference of shares in percentage points, always with its sign.
+std::string points_text(const Effect& effect);
+
+/// {"value": ..., "ci": [lo, hi]}; null without a value, "ci" null without an interval.
+Json json_of(const Effect& effect);
+
+/// A sentence where the simulator's truth lies outside of what the labels say: a robot's file that is far from the
+/// robot makes wrong labels. Empty: nowhere.
+std::string label_warning(const std::string& arm, const ArmTally& observed);
 
 }  // namespace trivela::experiment

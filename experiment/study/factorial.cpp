@@ -1,4 +1,4 @@
-#include "experiment/study/factorial.hpp"
+#include "experiment/study/studies.hpp"
 
 #include <fmt/format.h>
 

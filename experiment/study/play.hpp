@@ -8,7 +8,7 @@
 
 #include "experiment/run/calibrations.hpp"
 #include "experiment/study/study.hpp"
-#include "log/shards/shard.hpp"
+#include "log/shards/shards.hpp"
 #include "log/shards/study_results.hpp"
 
 namespace trivela::experiment {

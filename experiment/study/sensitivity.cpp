@@ -1,4 +1,4 @@
-#include "experiment/study/sensitivity.hpp"
+#include "experiment/study/studies.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include "config/scenario/scenario.hpp"
 #include "config/text/csv_row.hpp"
 #include "config/text/error.hpp"
-#include "experiment/study/sensitivity.hpp"
+#include "experiment/study/studies.hpp"
 
 namespace trivela::experiment {
 namespace {

@@ -1,14 +1,26 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "experiment/play/arm.hpp"
-#include "experiment/study/report.hpp"
+#include "experiment/study/effects.hpp"
 #include "sim/scenario.hpp"
 
 namespace trivela::experiment {
+
+/// What a study played.
+struct StudyPlayed {
+  std::string scenario{};  ///< name of its file, and what was changed of it
+  std::uint64_t seed = 1;
+  std::uint32_t matches = 0;
+  std::uint32_t possessions = 0;              ///< opportunities a match
+  std::size_t calibrations = 0;               ///< 0: robot files
+  Measure efficiency = Measure::kEfficiency;  ///< kUnblocked: blocked kicks stand apart
+  bool keeper = false;                        ///< goals mean something
+};
 
 /// What tells a row of a study from the others: "threshold", with a text; empty: this row has none.
 struct RowLabel {

@@ -54,9 +54,9 @@ std::string colour(std::size_t series) { return fmt::format("c{}", series % 8); 
 std::string panel_of(const std::string& title, const std::vector<Mark>& marks, const Names& names, double left) {
   double low = 0.0, high = 0.0;
   for (const Mark& mark : marks) {
-    const bool has_ends = has_interval(mark.effect);
-    low = std::min(low, 100.0 * (has_ends ? mark.effect.ci.lo : mark.effect.value));
-    high = std::max(high, 100.0 * (has_ends ? mark.effect.ci.hi : mark.effect.value));
+    const auto& [value, ci] = mark.effect;
+    low = std::min(low, 100.0 * (has_interval(mark.effect) ? ci.lo : value));
+    high = std::max(high, 100.0 * (has_interval(mark.effect) ? ci.hi : value));
   }
   const evaluator::Axis axis = evaluator::axis(low, high, left, left + kPanel, "");
   std::string svg = evaluator::svg_text(left + 0.5 * kPanel, kTop - 14.0, "middle", title);

@@ -17,7 +17,6 @@
 #include "experiment/run/calibrations.hpp"
 #include "experiment/run/in_threads.hpp"
 #include "experiment/study/effects.hpp"
-#include "experiment/study/report.hpp"
 
 namespace {
 

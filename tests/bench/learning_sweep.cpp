@@ -15,7 +15,6 @@
 #include "experiment/run/calibrations.hpp"
 #include "experiment/run/in_threads.hpp"
 #include "experiment/study/effects.hpp"
-#include "experiment/study/report.hpp"
 #include "kicking/random/draws.hpp"
 
 namespace {

@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "config/scenario/scenario.hpp"
-#include "experiment/study/comparisons.hpp"
-#include "experiment/study/factorial.hpp"
+#include "experiment/study/studies.hpp"
 #include "play_arms.hpp"
 
 namespace trivela::experiment {

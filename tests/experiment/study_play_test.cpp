@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "experiment/run/arms.hpp"
-#include "experiment/study/comparisons.hpp"
+#include "experiment/study/studies.hpp"
 #include "log/file/new_file.hpp"
 #include "play_arms.hpp"
 #include "tests/support/folder.hpp"

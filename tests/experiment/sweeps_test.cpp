@@ -7,9 +7,8 @@
 #include <set>
 
 #include "config/text/error.hpp"
-#include "experiment/study/comparisons.hpp"
-#include "experiment/study/sensitivity.hpp"
-#include "experiment/study/tune/tune_space.hpp"
+#include "experiment/study/studies.hpp"
+#include "experiment/study/tune/tune.hpp"
 #include "sim/scenario_fields.hpp"
 
 namespace trivela::experiment {

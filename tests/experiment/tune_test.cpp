@@ -126,8 +126,7 @@ Tuning found() {
   tuning.space = {numbers("policy.settle_s", {0.1, 0.2})};
   tuning.settings.policy.dribble_mps = 0.7;  // of --set
   coordinate_search(3, play, tuning);
-  tuning.held_out_start = played(1.0, 8);
-  tuning.held_out_best = played(0.9, 8);
+  tuning.held_out_played = {played(1.0, 8), played(0.9, 8)};
   return tuning;
 }
 
@@ -146,7 +145,7 @@ TEST(TunedSettings, AreAFileThatSaysWhereItComesFromAndReadsBack) {
 TEST(TunedSettings, OfASearchThatWasStoppedSayThatNothingWasHeldOut) {
   Tuning tuning = found();
   tuning.finished = false;
-  tuning.held_out_best.reset();
+  tuning.held_out_played.clear();
   const std::string text = to_settings_file(tuning, "tuned.toml");
   EXPECT_NE(text.find("# interrupted: the best so far\n"), std::string::npos) << text;
   EXPECT_NE(text.find("# not tried on other matches"), std::string::npos) << text;

@@ -59,13 +59,13 @@ std::vector<std::string> outcome(const Tuning& tuning) {
                                              described(tuning.tuning), share(tuning.best), share(tuning.start),
                                              tuning.tried)};
   if (!tuning.finished) lines.emplace_back("interrupted: the best so far");
-  if (!tuning.held_out_best) {
+  if (tuning.held_out_played.empty()) {
     lines.emplace_back("not tried on other matches: the share above is too good, it was chosen by");
     return lines;
   }
+  const ArmTally &start = tuning.held_out_played[0], &best = tuning.held_out_played[1];
   lines.push_back(fmt::format("held out, {}: {} %, before {} %; gain {} points where {} were seen",
-                              described(tuning.held_out), share(*tuning.held_out_best), share(*tuning.held_out_start),
-                              points_text(gain_of(*tuning.held_out_best, *tuning.held_out_start)),
+                              described(tuning.held_out), share(best), share(start), points_text(gain_of(best, start)),
                               points_text(gain_of(tuning.best, tuning.start))));
   return lines;
 }

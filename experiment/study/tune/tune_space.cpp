@@ -1,4 +1,4 @@
-#include "experiment/study/tune/tune_space.hpp"
+#include "experiment/study/tune/tune.hpp"
 
 #include <fmt/format.h>
 

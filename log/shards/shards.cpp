@@ -1,4 +1,4 @@
-#include "log/shards/shard_merge.hpp"
+#include "log/shards/shards.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <SQLiteCpp/VariadicBind.h>
@@ -9,18 +9,20 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
-#include <string>
+#include <string_view>
 
 #include "log/merge/merge.hpp"
 #include "log/read/reader.hpp"
 #include "log/schema/digest.hpp"
-#include "log/shards/shard.hpp"
 
 namespace trivela::log {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view kMark = "\n### shard ";
 
 /// A shard's log or that of a whole experiment.
 struct Part {
@@ -103,6 +105,31 @@ void make_whole(SQLite::Database& database, const ShardStamp& stamp) {
 }
 
 }  // namespace
+
+std::string Shard::text() const { return fmt::format("{}/{}", number, count); }
+
+MatchRange range_of(const std::optional<Shard>& shard, std::uint32_t matches) {
+  if (!shard) return {0, matches};
+  const auto share = [&](std::uint32_t shards) {
+    return static_cast<std::uint32_t>(std::uint64_t{matches} * shards / shard->count);
+  };
+  return {share(shard->number - 1), share(shard->number)};
+}
+
+std::string stamped_arguments(const ShardStamp& stamp) {
+  return fmt::format("{}{}{} {} {}\n", stamp.arguments, kMark, stamp.shard.number, stamp.shard.count, stamp.matches);
+}
+
+std::optional<ShardStamp> stamp_of(const std::string& arguments) {
+  const auto at = arguments.rfind(kMark);
+  if (at == std::string::npos) return std::nullopt;
+  ShardStamp stamp{arguments.substr(0, at), {}, 0};
+  std::istringstream numbers{arguments.substr(at + kMark.size())};
+  numbers >> stamp.shard.number >> stamp.shard.count >> stamp.matches;
+  const auto [number, count] = stamp.shard;
+  const bool holds = number >= 1 && number <= count && count <= stamp.matches && stamped_arguments(stamp) == arguments;
+  return holds ? std::optional{stamp} : std::nullopt;
+}
 
 bool any_is_shard(const std::vector<fs::path>& files) {
   return std::ranges::any_of(files, [](const fs::path& path) {
