@@ -16,7 +16,6 @@
 #include "config/text/installation.hpp"
 #include "experiment/run/arms.hpp"
 #include "experiment/run/calibrations.hpp"
-#include "experiment/study/play.hpp"
 #include "experiment/study/study.hpp"
 #include "log/shards/study_results.hpp"
 

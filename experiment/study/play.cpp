@@ -1,4 +1,4 @@
-#include "experiment/study/play.hpp"
+#include "experiment/study/study.hpp"
 
 #include <fmt/format.h>
 
@@ -72,25 +72,27 @@ KnownPlay play_missing(const std::vector<StudyWorld>& worlds, const PlayPlan& pl
                        const std::function<void(std::size_t, std::size_t, const std::string&)>& progress) {
   const log::MatchRange range = log::range_of(plan.shard, plan.matches);
   std::vector<Place> places;
-  std::vector<std::pair<Place, std::uint32_t>> missing;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> missing;  // place and match
   for (const StudyWorld& world : worlds) {
-    std::vector<Place> first;  // of the results' arms, one may be there twice
+    std::vector<std::uint32_t> first;  // of the results' arms, one may be there twice
     for (std::size_t i = 0; i < world.arms.size(); ++i) {
       const Arm& arm = world.arms[i];
-      const Place place{world, i, results.arm(text_of(world.scenario, arm, plan), world.what + ": " + arm.name)};
-      if (std::ranges::find(places, place.kept, &Place::kept) == places.end()) first.push_back(place);
-      places.push_back(place);
+      const std::size_t kept = results.arm(text_of(world.scenario, arm, plan), world.what + ": " + arm.name);
+      if (std::ranges::find(places, kept, &Place::kept) == places.end())
+        first.push_back(static_cast<std::uint32_t>(places.size()));
+      places.push_back({world, i, kept});
     }
     for (std::uint32_t match = range.begin; match < range.end; ++match)  // slow arms are spread over the threads
-      for (const Place& place : first)
-        if (!results.matches_of(place.kept).contains(match)) missing.emplace_back(place, match);
+      for (const std::uint32_t place : first)
+        if (!results.matches_of(places[place].kept).contains(match)) missing.emplace_back(place, match);
   }
   std::size_t done = 0;
   progress(done, missing.size(), worlds.front().what);
   std::mutex one_at_a_time;
   bool stopped = false;  // by an exception: matches that were under way are not reported
   in_threads(missing.size(), plan.jobs, [&](std::size_t i) {
-    const auto& [place, match] = missing[i];
+    const auto match = missing[i].second;
+    const Place& place = places[missing[i].first];
     const MatchTally tally = play_one(place, plan, match);
     const std::lock_guard lock{one_at_a_time};
     if (std::exchange(stopped, true)) return;

@@ -1,7 +1,7 @@
 // What a study plays of some arms, without a file.
 #pragma once
 
-#include "experiment/study/play.hpp"
+#include "experiment/study/study.hpp"
 
 namespace trivela::experiment {
 
