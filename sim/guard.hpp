@@ -34,6 +34,17 @@ struct GuardedBall {
 ///   It drives there from rest at `start_x_m` within speed and acceleration, braking in time. Steps of 2 ms.
 double guard_place_m(const Guard& guard, double start_x_m, const GuardedBall& ball, const Misjudgement& misjudged);
 
+/// A guard on its way along its line.
+struct GuardMotion {
+  double x_m = 0.0;
+  double v_mps = 0.0;
+  double t_s = 0.0;  ///< since it left
+};
+
+/// Where a guard is that drives to `aim_m` at once, `until_s` after it left [m]: guard_place_m() of one that guesses.
+/// `jump` goes on by whole steps, so that a later instant begins there; it must not be past `until_s`.
+double jumped_place_m(const Guard& guard, double aim_m, double until_s, GuardMotion& jump);
+
 /// Whether the guard stops the ball: both overlap by `overlap_m` in width and in height. A frame goes up where the ball
 /// is taken to pass over the body when it must be decided (`out_s` before the crossing), else to the side where the
 /// ball is taken to pass.

@@ -129,8 +129,9 @@ bool Shot::keeper_has(const Crossing& crossing, double flown_s) const {
 std::optional<PlanPoint> Shot::jumping_keeper(std::int64_t t_ns) const {
   if (!scenario_.keeper.enabled || scenario_.keeper.guess_m == 0.0) return std::nullopt;
   PlanPoint place = keeper_place(scenario_, released_.position_m);
-  const GuardedBall until{.crossing = {}, .flown_s = kicking::seconds(t_ns - release_t_ns_)};
-  place.x_m = guard_place_m(scenario_.keeper.guard, place.x_m, until, keeper_misjudges());
+  const double until_s = kicking::seconds(t_ns - release_t_ns_);
+  if (!jump_ || until_s < jump_->motion.t_s) jump_ = Jump{*keeper_misjudges().guessed_m, {place.x_m}};
+  place.x_m = jumped_place_m(scenario_.keeper.guard, jump_->aim_m, until_s, jump_->motion);
   return place;
 }
 

@@ -52,6 +52,11 @@ class Shot {
   const std::optional<ShotResult>& result() const { return result_; }
 
  private:
+  struct Jump {
+    double aim_m;
+    GuardMotion motion;
+  };
+
   void step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents);
   BallMotion at_line(const BallMotion& before, double line_y_m, double dt_s, double& until_s) const;
   void meet_goal_plane(std::int64_t t_ns);
@@ -73,6 +78,7 @@ class Shot {
   std::int64_t t_ns_;
   double farthest_y_m_;
   std::optional<ShotResult> result_;
+  mutable std::optional<Jump> jump_;  // of the keeper, as far as it was asked for
 };
 
 /// Where the keeper stands while the ball is at `ball_m`: `advance_m` before the goal line, between the ball and the

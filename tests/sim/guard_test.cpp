@@ -41,6 +41,16 @@ TEST(Guard, StopsWhereTheBallComes) {
     EXPECT_NEAR(guard_place_m(exact(), 0.0, ball(x_m, 0.5, 3.0), {}), x_m, 2e-3);
 }
 
+TEST(Guard, AJumpGoesOnFromWhereItWasAskedForLast) {
+  const Guard guard = exact();
+  GuardMotion jump{0.1};
+  for (double until_s = 0.0; until_s < 1.5; until_s += 0.0203) {
+    Misjudgement guesses;
+    guesses.guessed_m = 0.7;
+    EXPECT_EQ(jumped_place_m(guard, 0.7, until_s, jump), guard_place_m(guard, 0.1, ball(0.0, 0.5, until_s), guesses));
+  }
+}
+
 TEST(Guard, ALaterOrWiderBallIsHarder) {
   const Guard guard = exact();
   double widest_before_m = 0.0;
