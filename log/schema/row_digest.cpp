@@ -52,8 +52,8 @@ RowDigests::RowDigests(SQLite::Database& database) : database_(database) {
     Rows& rows = tables_.emplace_back();
     rows.select.reset(select);
     rows.head = fmt::format("table {}", table.name);
-    for (int i = 0; i < sqlite3_column_count(select); ++i)
-      rows.head += fmt::format(" {}", sqlite3_column_name(select, i));
+    rows.columns = sqlite3_column_count(select);
+    for (int i = 0; i < rows.columns; ++i) rows.head += fmt::format(" {}", sqlite3_column_name(select, i));
     rows.head += '\n';
   }
 }
@@ -66,27 +66,26 @@ void RowDigests::pour() {
 void RowDigests::add_text(std::string_view text) { bytes_.insert(bytes_.end(), text.begin(), text.end()); }
 
 void RowDigests::add_number(unsigned char tag, std::uint64_t bits) {
-  bytes_.push_back(tag);
-  std::array<unsigned char, 8> bytes;
-  for (std::size_t i = 0; i < 8; ++i) bytes[i] = static_cast<unsigned char>(bits >> (56 - 8 * i));
+  std::array<unsigned char, 9> bytes{tag};
+  for (std::size_t i = 0; i < 8; ++i) bytes[i + 1] = static_cast<unsigned char>(bits >> (56 - 8 * i));
   bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
 }
 
-void RowDigests::add_cell(sqlite3_stmt* row, int column) {
-  switch (sqlite3_column_type(row, column)) {
+void RowDigests::add_cell(sqlite3_value* cell) {
+  switch (sqlite3_value_type(cell)) {
     case SQLITE_INTEGER:
-      return add_number('i', static_cast<std::uint64_t>(sqlite3_column_int64(row, column)));
+      return add_number('i', static_cast<std::uint64_t>(sqlite3_value_int64(cell)));
     case SQLITE_FLOAT:
-      return add_number('f', std::bit_cast<std::uint64_t>(sqlite3_column_double(row, column)));
+      return add_number('f', std::bit_cast<std::uint64_t>(sqlite3_value_double(cell)));
     case SQLITE_TEXT: {
-      const auto* const text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
-      const std::string_view whole(text, static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
+      const auto* const text = reinterpret_cast<const char*>(sqlite3_value_text(cell));
+      const std::string_view whole(text, static_cast<std::size_t>(sqlite3_value_bytes(cell)));
       add_number('t', whole.size());
       return add_text(whole);
     }
     case SQLITE_BLOB: {
-      const auto* const blob = static_cast<const char*>(sqlite3_column_blob(row, column));
-      const std::string_view whole(blob, static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
+      const auto* const blob = static_cast<const char*>(sqlite3_value_blob(cell));
+      const std::string_view whole(blob, static_cast<std::size_t>(sqlite3_value_bytes(cell)));
       add_number('b', whole.size());
       return add_text(whole);
     }
@@ -107,7 +106,7 @@ RowDigest RowDigests::of(std::int64_t session_id) {
     while ((code = sqlite3_step(row)) == SQLITE_ROW) {
       if (++digest.row_count % kToldEvery_rows == 0 && told_) told_(digest.row_count);
       bytes_.push_back('r');
-      for (int i = 0; i < sqlite3_column_count(row); ++i) add_cell(row, i);
+      for (int i = 0; i < rows.columns; ++i) add_cell(sqlite3_column_value(row, i));  // no other thread has the row
       if (bytes_.size() >= kPour_B) pour();
     }
     sqlite3_reset(row);

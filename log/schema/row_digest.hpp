@@ -74,12 +74,13 @@ class RowDigests {
   };
   struct Rows {
     std::string head;
+    int columns = 0;
     std::unique_ptr<sqlite3_stmt, Finalise> select;
   };
 
   void add_text(std::string_view text);
   void add_number(unsigned char tag, std::uint64_t bits);
-  void add_cell(sqlite3_stmt* row, int column);
+  void add_cell(sqlite3_value* cell);
   void pour();
 
   SQLite::Database& database_;
