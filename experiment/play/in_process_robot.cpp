@@ -39,17 +39,17 @@ const robot::CycleDecision* InProcessRobot::cycle(const sim::Sensors& sensors, c
   receipt_.reset();
   const hal::KickerSample kicker = kicker_sample(sensors);
   const msg::VisionFrame frame = hal::vision_message(sensors.t_ns, sensors.vision);
-  const auto odometry = odometry_.update(wheel_sample(sensors));
-  if (!odometry) return nullptr;
+  const msg::Odometry* const odometry = odometry_.update(wheel_sample(sensors));
+  if (odometry == nullptr) return nullptr;
   const auto says = referee.playing ? robot::RefereePermission::kPlay : robot::RefereePermission::kStop;
   kicking::make_in_place(status_, [&] { return controller_.status(kicker, says, sensors.t_ns); });
   kicking::make_in_place(world_, [&] { return model_.update(*odometry, &frame, &referee, &status_); });
   world_.robot_id = robot_id_;
-  std::optional<kicking::PolicyInput> told;
   if (truth != nullptr)
-    told = oracle_input(*truth, sensors.t_ns, referee.playing, referee.possession_id, status_.ready);
+    told_ = oracle_input(*truth, sensors.t_ns, referee.playing, referee.possession_id, status_.ready);
   decider_.receive(referee);
-  const robot::CycleDecision& decision = decider_.decide(world_, &status_, outcome, told ? &*told : nullptr);
+  const robot::CycleDecision& decision =
+      decider_.decide(world_, &status_, outcome, truth != nullptr ? &told_ : nullptr);
   decider_.commit();
   if (decision.order) receipt_ = controller_.answer(*decision.order, sensors.t_ns, robot::OrderBy::kOwnDecision);
   arbiter_.receive(msg::DRIVE_KICK_DECISION, sensors.t_ns, decision.output.drive, sensors.t_ns);

@@ -60,6 +60,7 @@ class InProcessRobot {
   robot::ObeyedDrive drive_;
   msg::WorldState world_{};
   msg::KickerStatus status_{};
+  kicking::PolicyInput told_;  // of the oracle
   std::optional<msg::KickReceipt> receipt_;
 };
 

@@ -57,7 +57,8 @@ class Game {
         session_(kicking::kick_session(seed_of_match)),
         oracle_(somebody_knows_the_truth(settings_.kick_decision, scenario)),
         match_(scenario, seed_of_match, 1, kEndless_min, possessions),
-        observer_(settings_.shot_observer, settings_.goal) {
+        observer_(settings_.shot_observer, settings_.goal),
+        players_(team_size(scenario)) {
     played_.match_seed = seed_of_match;
     played_.possessions.reserve(possessions);
     kick_ids_.reserve(possessions);
@@ -79,9 +80,8 @@ class Game {
     if (follows) observe(sensors, referee);
     sim::Commands commands;
     InProcessRobot& chain = chain_of(robot_id_);
-    std::optional<sim::TrueState> truth;
-    if (oracle_) truth = match_.true_state();
-    if (const robot::CycleDecision* decision = chain.cycle(sensors, referee, outcome_, truth ? &*truth : nullptr)) {
+    if (oracle_) truth_ = match_.true_state();
+    if (const robot::CycleDecision* decision = chain.cycle(sensors, referee, outcome_, oracle_ ? &truth_ : nullptr)) {
       commands.drive = chain.drive().twist;
       commands.lever_kind = decision->output.lever_kind;
       note_assignment(chain, decision->in_charge);
@@ -229,20 +229,22 @@ class Game {
   };
 
   Player& player_of(std::uint8_t robot_id) {
-    const std::size_t index = robot_id - 1u;
-    if (players_.size() <= index) players_.resize(index + 1);
-    if (players_[index]) return *players_[index];
+    std::unique_ptr<Player>& player = players_.at(robot_id - 1u);
+    if (!player) begin(player, robot_id);
+    return *player;
+  }
+
+  void begin(std::unique_ptr<Player>& made, std::uint8_t robot_id) {
     const config::Robot robot = robot_of(scenario_, arm_, seed_, match_id_, robot_id);
-    players_[index].reset(new Player{.chain{settings_, robot, robot_id, session_, seat(robot_id, robot.model.kinds())},
-                                     .learning = std::nullopt});
-    Player& player = *players_[index];
+    made.reset(new Player{.chain{settings_, robot, robot_id, session_, seat(robot_id, robot.model.kinds())},
+                          .learning = std::nullopt});
+    Player& player = *made;
     player.chain.receive(*first_word_);
-    if (settings_.self_calibration.mode == config::SelfCalibrationMode::kOff) return player;
+    if (settings_.self_calibration.mode == config::SelfCalibrationMode::kOff) return;
     player.learning.emplace(settings_.self_calibration, player.chain.robot().model, robot_id);
     const msg::KickerEstimate& first = player.learning->first();
     if (record_) record_->estimates.push_back(first);
     if (first.used) player.chain.learn(first);
-    return player;
   }
 
   InProcessRobot& chain_of(std::uint8_t robot_id) { return player_of(robot_id).chain; }
@@ -277,6 +279,7 @@ class Game {
   PlayedMatch played_;
   std::vector<std::int64_t> kick_ids_;  // by possession; 0: none
   std::optional<msg::KickOutcome> outcome_;
+  sim::TrueState truth_;  // for the oracle
   std::uint8_t robot_id_ = 1;
   bool playing_ = false;
   std::optional<msg::Referee> first_word_;

@@ -150,11 +150,12 @@ class OtherRobot {
   /// The wheel odometry of a recorded sample; none: it does not go with this base.
   std::optional<msg::Odometry> odometry(const msg::Odometry& recorded) {
     if (!odometry_) return recorded;
-    auto made = odometry_->update(wheel_sample(recorded));
-    if (!made) return std::nullopt;
-    made->robot_id = recorded.robot_id;
-    made->seq = recorded.seq;
-    made->obeyed = recorded.obeyed;
+    const msg::Odometry* const estimate = odometry_->update(wheel_sample(recorded));
+    if (estimate == nullptr) return std::nullopt;
+    msg::Odometry made = *estimate;
+    made.robot_id = recorded.robot_id;
+    made.seq = recorded.seq;
+    made.obeyed = recorded.obeyed;
     return made;
   }
 

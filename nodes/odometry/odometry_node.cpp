@@ -60,15 +60,16 @@ void OdometryNode::on_wheels(const hal::WheelSample& sample) {
   });
   emulation_.see(msg::PART_WHEELS, sample.emulated, sample.t_ns);
   emulation_.see(msg::PART_GYRO, sample.gyro_emulated, sample.t_ns);
-  auto out = odometry_.update(sample);
-  if (!out) {
+  const msg::Odometry* const estimate = odometry_.update(sample);
+  if (estimate == nullptr) {
     context_.logger->warn("wheel sample of t {} ns is unusable: not finite, too few wheels, or not newer", sample.t_ns);
     return;
   }
-  out->robot_id = context_.robot_id();
-  out->seq = ++seq_;
-  out->obeyed = obeyed();
-  odometry_out_.write(*out);
+  msg::Odometry out = *estimate;
+  out.robot_id = context_.robot_id();
+  out.seq = ++seq_;
+  out.obeyed = obeyed();
+  odometry_out_.write(out);
   stop_without_commands();
 }
 

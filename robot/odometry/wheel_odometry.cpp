@@ -16,13 +16,13 @@ constexpr double msg::Odometry::*kWheels[]{&msg::Odometry::wheel_0_radps, &msg::
 
 }  // namespace
 
-std::optional<msg::Odometry> WheelOdometry::update(const hal::WheelSample& sample) {
+const msg::Odometry* WheelOdometry::update(const hal::WheelSample& sample) {
   constexpr double kFastest_radps = 1e3;  // beyond any motor; what came of more would stay in the pose
   const auto healthy = [](double w) { return std::abs(w) <= kFastest_radps; };
   const std::span wheel_radps{sample.wheel_radps.data(), static_cast<std::size_t>(sample.wheel_count)};
   const bool all_healthy = std::all_of(wheel_radps.begin(), wheel_radps.end(), healthy);
-  if (!all_healthy || sample.wheel_count < kinematics_.wheel_count()) return std::nullopt;
-  if (last_t_ns_ && sample.t_ns <= *last_t_ns_) return std::nullopt;
+  if (!all_healthy || sample.wheel_count < kinematics_.wheel_count()) return nullptr;
+  if (last_t_ns_ && sample.t_ns <= *last_t_ns_) return nullptr;
 
   kicking::Twist twist = kinematics_.twist(wheel_radps);
   double var_omega = variance_.z();
@@ -54,7 +54,7 @@ std::optional<msg::Odometry> WheelOdometry::update(const hal::WheelSample& sampl
   now_.heading_rad = kicking::wrap_angle(pose_.heading_rad);
   now_.var_v_m2ps2 = var_v_m2ps2();
   now_.var_omega_rad2ps2 = var_omega;
-  return now_;
+  return &now_;
 }
 
 }  // namespace trivela::robot

@@ -23,10 +23,10 @@ class WheelOdometry {
   WheelOdometry(const kicking::WheelBase& base, const config::Odometry& noise)
       : kinematics_(base), noise_(noise), variance_(kinematics_.twist_variance(noise.wheel_sd_radps)) {}
 
-  /// The estimate with the sample that it was made from; robot_id and seq are the caller's. The first sample sets the
-  /// clock and moves nothing; one that is not finite, faster than 1000 rad/s, of too few wheels or not newer than the
-  /// last one is ignored (nullopt).
-  [[nodiscard]] std::optional<msg::Odometry> update(const hal::WheelSample& sample);
+  /// The estimate with the sample that it was made from, until the next call; robot_id and seq are the caller's. The
+  /// first sample sets the clock and moves nothing; one that is not finite, faster than 1000 rad/s, of too few wheels
+  /// or not newer than the last one is ignored (nullptr).
+  [[nodiscard]] const msg::Odometry* update(const hal::WheelSample& sample);
 
  private:
   double var_v_m2ps2() const { return std::max(variance_.x(), variance_.y()); }

@@ -32,9 +32,9 @@ struct Driven {
   std::int64_t t_ns = 1'000'000'000;
 
   std::optional<msg::Odometry> cycle(const Twist& twist, std::optional<double> gyro_radps = {}) {
-    const auto estimate = odometry.update(sample(t_ns, wheel_speeds_radps(kBase, twist), gyro_radps));
+    const msg::Odometry* const estimate = odometry.update(sample(t_ns, wheel_speeds_radps(kBase, twist), gyro_radps));
     t_ns += kCycle_ns;
-    return estimate;
+    return estimate != nullptr ? std::optional{*estimate} : std::nullopt;
   }
 };
 
