@@ -58,15 +58,20 @@ void SensorSuite::begin(const kicking::Draws& draws) {
 void SensorSuite::remember(const World& world) {
   newest_ = newest_ + 1 < past_.size() ? newest_ + 1 : 0;
   kept_ = std::min(kept_ + 1, past_.size());
-  past_[newest_] = {world.t_ns(), world.body().pose(), world.body().axis(), world.ball_m(),
-                    world.opponents().nearest().position()};
-  if (world.shot()) past_[newest_].jumping_keeper = world.shot()->jumping_keeper(world.t_ns());
+  Snapshot& now = past_[newest_];
+  const OpponentBody& nearest = world.opponents().nearest();
+  now.t_ns = world.t_ns();
+  now.pose = world.body().pose();
+  now.axis = world.body().axis();
+  now.ball = world.ball_m();
+  now.opponent = nearest.position();
+  now.jumping_keeper = world.shot() ? world.shot()->jumping_keeper(world.t_ns()) : std::nullopt;
   further_count_ = 0;
   const auto add = [&](const PlanPoint& place) {
-    if (further_count_ < kMostFurther) past_[newest_].further[further_count_++] = place;
+    if (further_count_ < kMostFurther) now.further[further_count_++] = place;
   };
   for (const OpponentBody& body : world.opponents().all()) {
-    if (&body != &world.opponents().nearest()) add(body.position());
+    if (&body != &nearest) add(body.position());
   }
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(scenario_.defenders.count); ++i)
     add(defender_place(scenario_, draws_, world.ball_m(), i));
@@ -86,15 +91,15 @@ const kicking::Pose& SensorSuite::slow_error() const {
   return slow_error_;
 }
 
-std::optional<SensorSuite::Snapshot> SensorSuite::at(std::int64_t t_ns) const {
+const SensorSuite::Snapshot* SensorSuite::at(std::int64_t t_ns) const {
   const Snapshot* after = nullptr;
   for (std::size_t i = 0; i < kept_; ++i) {
     const Snapshot& before = past_[newest_ >= i ? newest_ - i : newest_ + past_.size() - i];
-    if (before.t_ns == t_ns) return before;
-    if (before.t_ns < t_ns) return after ? std::optional{between(before, *after, t_ns)} : std::nullopt;
+    if (before.t_ns == t_ns) return &before;
+    if (before.t_ns < t_ns) return after ? &(between_ = between(before, *after, t_ns)) : nullptr;
     after = &before;
   }
-  return std::nullopt;
+  return nullptr;
 }
 
 SensorSuite::Snapshot SensorSuite::between(const Snapshot& a, const Snapshot& b, std::int64_t t_ns) {
@@ -131,7 +136,7 @@ VisionFrame SensorSuite::vision(const World& world) const {
   const Vision& v = scenario_.vision;
   VisionFrame frame{
       .t_exposure_ns = world.t_ns() - vision_latency_ns_, .pose = {}, .ball = {}, .opponent = {}, .keeper = {}};
-  const auto seen = at(frame.t_exposure_ns);
+  const Snapshot* const seen = at(frame.t_exposure_ns);
   if (!seen) return frame;
   const auto [pose_luck, ball_luck, opponent_luck, spare] = draws_.uniforms(kicking::Role::kVisionDropout, cycle_);
   if (pose_luck >= v.dropout_ratio) {
@@ -186,7 +191,7 @@ FlightFrame SensorSuite::flight(const World& world) const {
     if (since_ns >= cycle_ns_) return frame;  // the camera has not exposed since the last cycle
     frame.t_exposure_ns -= since_ns;
   }
-  const auto seen = at(frame.t_exposure_ns);
+  const Snapshot* const seen = at(frame.t_exposure_ns);
   if (!seen || draws_.uniform(kicking::Role::kFlightDropout, cycle_) < c.dropout_ratio) return frame;
   const auto [x, y, z, spare] = draws_.normals(kicking::Role::kFlightNoise, cycle_);
   frame.ball = FlightFrame::Point{seen->ball.x() + c.bias_x_m + c.position_sd_m * x,

@@ -37,7 +37,7 @@ class SensorSuite {
 
  private:
   struct Snapshot {
-    std::int64_t t_ns;
+    std::int64_t t_ns = 0;
     kicking::Pose pose;
     PlanVector axis;
     Eigen::Vector3d ball{0.0, 0.0, 0.0};
@@ -51,8 +51,8 @@ class SensorSuite {
     double vx, vy, omega;
   };
 
-  /// The world at an instant, between the two snapshots around it.
-  std::optional<Snapshot> at(std::int64_t t_ns) const;
+  /// The world at an instant, between the two snapshots around it; nullptr: not within them. Until the next call.
+  const Snapshot* at(std::int64_t t_ns) const;
   static Snapshot between(const Snapshot& a, const Snapshot& b, std::int64_t t_ns);
 
   void see_further(const Snapshot& seen, VisionFrame& frame) const;
@@ -79,6 +79,7 @@ class SensorSuite {
   std::size_t kept_ = 0;
   std::size_t further_count_ = 0;  // opponents beside the nearest, and defenders
 
+  mutable Snapshot between_;          // of the last at()
   mutable kicking::Pose slow_error_;  // a function of draws_ and slow_cycle_, carried on when a frame is asked for
   mutable std::uint32_t slow_cycle_ = 0;
 };

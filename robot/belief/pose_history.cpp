@@ -11,6 +11,7 @@ void PoseHistory::grow() {
   std::vector<Entry> larger(2 * ring_.size());
   for (std::size_t i = 0; i < count_; ++i) larger[i] = entry(i);
   ring_ = std::move(larger);
+  mask_ = ring_.size() - 1;
   first_ = 0;
 }
 

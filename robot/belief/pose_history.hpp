@@ -28,12 +28,13 @@ class PoseHistory {
     std::int64_t t_ns;
     kicking::TurnedPose pose;
   };
-  std::size_t place(std::size_t i) const { return (first_ + i) & (ring_.size() - 1); }
+  std::size_t place(std::size_t i) const { return (first_ + i) & mask_; }
   const Entry& entry(std::size_t i) const { return ring_[place(i)]; }  // 0: the oldest
   void grow();
 
   std::int64_t span_ns_;
   std::vector<Entry> ring_ = std::vector<Entry>(64);  // a power of two; grows where more fit into the span
+  std::size_t mask_ = ring_.size() - 1;
   std::size_t first_ = 0;
   std::size_t count_ = 0;
 };
