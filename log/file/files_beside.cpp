@@ -116,10 +116,17 @@ ReadingFolder::~ReadingFolder() {
 }
 
 Wal wal_beside(const fs::path& log) {
-  std::error_code none;
-  const auto bytes = fs::file_size(beside(log, "-wal"), none);
-  if (none || bytes == 0) return Wal::kNone;
-  return is_in_wal_mode(log) ? Wal::kOfThis : Wal::kOfAnother;
+  const auto holds_rows = [&] {
+    std::error_code none;
+    const auto bytes = fs::file_size(beside(log, "-wal"), none);
+    return !none && bytes > 0;
+  };
+  // Twice: whoever ends or goes on with a log meanwhile changes the one after the other.
+  for (int look = 0; look < 2; ++look) {
+    if (!holds_rows()) return Wal::kNone;
+    if (is_in_wal_mode(log)) return Wal::kOfThis;
+  }
+  return Wal::kOfAnother;
 }
 
 void refuse_wal_of_another(const fs::path& log, Wal wal) {
@@ -137,21 +144,26 @@ std::string name_of_main_file(const fs::path& log) {
 }
 
 ReadableLog::ReadableLog(const fs::path& log) : log_(log), wal_(wal_beside(log)), name_(log.string()) {
-  // One that a killed program left open needs its journal; one that a recorder has just emptied its -shm.
-  const bool in_use = exists_beside(log, "-journal") || (wal_ == Wal::kNone && can_be_read_in_place(log));
-  if (wal_ != Wal::kOfThis) {
-    if (!in_use || wal_ == Wal::kOfAnother) name_ = name_of_main_file(log);
-    return;
+  if (wal_ == Wal::kOfThis && can_be_read_in_place(log)) return;
+  if (wal_ == Wal::kOfThis) {
+    try {
+      copied_to_.emplace();
+      copy_both(log, copied_to_->path());
+      name_ = (copied_to_->path() / "log.db").string();
+      return;
+    } catch (const std::exception& error) {
+      copied_to_.reset();
+      wal_ = wal_beside(log);
+      if (wal_ == Wal::kOfThis)
+        throw std::runtime_error(
+            fmt::format("{} and its -wal cannot be copied to a folder for reading: {}", log.string(), error.what()));
+    }  // its recorder has ended meanwhile
   }
-  if (can_be_read_in_place(log)) return;
-  try {
-    copied_to_.emplace();
-    copy_both(log, copied_to_->path());
-  } catch (const std::exception& error) {
-    throw std::runtime_error(
-        fmt::format("{} and its -wal cannot be copied to a folder for reading: {}", log.string(), error.what()));
-  }
-  name_ = (copied_to_->path() / "log.db").string();
+  // One that a killed program left open needs its journal; one that a recorder has just emptied its -shm. To one that
+  // has ended somebody may add meanwhile: SQLite's locks keep reading and writing apart.
+  const bool ended = !is_in_wal_mode(log) && !exists_beside(log, "-wal");
+  const bool in_use = ended || exists_beside(log, "-journal") || (wal_ == Wal::kNone && can_be_read_in_place(log));
+  if (!in_use || wal_ == Wal::kOfAnother) name_ = name_of_main_file(log);
 }
 
 void ReadableLog::leave_wal_out() {

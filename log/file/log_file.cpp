@@ -72,9 +72,10 @@ class ReadingOnly {
   sqlite3* handle_;
 };
 
-/// What a log only gains, and what names whose its rows are.
+/// What a log only gains, and what names whose its rows are; all of one instant, since a recorder may go on.
 struct Extent {
-  explicit Extent(const SQLite::Database& database) {
+  explicit Extent(SQLite::Database& database) {
+    const SQLite::Transaction snapshot(database);
     const auto each = [&](const std::string& sql, const auto& take) {
       SQLite::Statement statement(database, sql);
       while (statement.executeStep()) take(statement);
@@ -104,10 +105,11 @@ struct Extent {
 };
 
 /// Was the write-ahead log that was read with it its own? Another's, or an older copy of its own, hides what it has.
-bool has_what_the_file_has(const SQLite::Database& both, const fs::path& log) {
+/// `both` is looked at last: by then it has whatever a recorder has moved into the file.
+bool has_what_the_file_has(SQLite::Database& both, const std::string& main_file) {
   std::optional<Extent> of_file;
   try {
-    of_file.emplace(*connect(name_of_main_file(log), false));
+    of_file.emplace(*connect(main_file, false));
   } catch (const SQLite::Exception&) {
     return true;  // it has no table yet, or a recorder is writing the page
   }
@@ -187,7 +189,7 @@ void LogFile::allow_steps() const {
 
 void LogFile::open() {
   database_ = connect(place_->name(), may_be_damaged());
-  if (place_->wal() == Wal::kOfThis && !has_what_the_file_has(*database_, path_)) {
+  if (place_->wal() == Wal::kOfThis && !has_what_the_file_has(*database_, name_of_main_file(place_->name()))) {
     place_->leave_wal_out();
     database_ = connect(place_->name(), may_be_damaged());
   }

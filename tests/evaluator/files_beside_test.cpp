@@ -10,15 +10,18 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <iterator>
 #include <set>
 #include <string_view>
+#include <thread>
 
 #include "evaluator/sessions/log_findings.hpp"
 #include "log/merge/merge.hpp"
 #include "log/read/reader.hpp"
 #include "log/write/additions.hpp"
+#include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {
@@ -114,6 +117,44 @@ TEST_F(FilesBeside, ReadingLeavesNothingAndSaysTheSameTwice) {
   EXPECT_EQ(said_of(path("alone.db")), said);
   EXPECT_EQ(kicks_in(path("both.db")), 5);
   EXPECT_EQ(files(), before);
+}
+
+TEST_F(FilesBeside, AReaderHasEverySessionThatWasCommittedWhenItBegan) {
+  constexpr int kMatches = 1 << 20;
+  constexpr int kReadings = 200, kMatchesARun = 7, kMatchesAReading = 4;
+  std::atomic<int> committed = 0, readings = 0;
+  std::atomic<bool> ends = false;
+  auto writes = std::make_unique<TestExperiment>(path("live.db"), kMatches);
+  std::jthread writer([&] {
+    while (!ends) {  // commits, ends so that its -wal goes, and goes on in another
+      for (int match = 0; match < kMatchesARun && !ends; ++match) {
+        for (int now = readings; committed >= kMatchesAReading * (now + 1); now = readings) readings.wait(now);
+        writes->begin();
+        writes->session(static_cast<std::uint32_t>(committed.load()), 0, "stopped", {{1, "stopped"}});
+        writes->possession(1, 1, "stopped", 1.0, kIn);
+        writes->commit();
+        ++committed;
+      }
+      writes->finish();
+      writes.reset();
+      writes = std::make_unique<TestExperiment>(path("live.db"), kMatches);
+    }
+  });
+  while (readings < kReadings && !HasFailure()) {
+    const int at_least = committed;
+    try {
+      const log::Reader reader(path("live.db"));
+      EXPECT_GE(reader.sessions().size(), static_cast<std::size_t>(at_least));
+      EXPECT_NE(reader.wal(), log::Wal::kOfAnother);
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what();
+    }
+    ++readings;
+    readings.notify_one();
+  }
+  ends = true;
+  readings = kMatches;
+  readings.notify_one();
 }
 
 TEST_F(FilesBeside, AnUnclosedLogIsReadWhereNothingCanBeWritten) {
