@@ -18,7 +18,7 @@ namespace imports = evaluator::imports;
 
 std::string utc(std::int64_t t_ms) {
   const std::chrono::sys_time<std::chrono::milliseconds> t{std::chrono::milliseconds{t_ms}};
-  return fmt::format("{:%Y-%m-%d %H:%M:%S}", std::chrono::floor<std::chrono::seconds>(t));
+  return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::gmtime(std::chrono::floor<std::chrono::seconds>(t)));
 }
 
 std::string cell_of(const std::optional<double>& value, int digits) {

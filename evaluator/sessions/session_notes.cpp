@@ -46,8 +46,8 @@ std::string line_of(const SessionNote& note) {
   if (note.kind == "opponent") return "Opponent: " + text;
   if (note.kind == "venue") return "Venue: " + text;
   const std::chrono::sys_time<std::chrono::nanoseconds> at{std::chrono::nanoseconds{note.utc_ns}};
-  return fmt::format("Note of {}, {:%Y-%m-%d %H:%M} UTC: {}", note.who, std::chrono::floor<std::chrono::seconds>(at),
-                     text);
+  return fmt::format("Note of {}, {:%Y-%m-%d %H:%M} UTC: {}", note.who,
+                     fmt::gmtime(std::chrono::floor<std::chrono::seconds>(at)), text);
 }
 
 ImportNotes import_notes_of(const log::Queries& reader) {

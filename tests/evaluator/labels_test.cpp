@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stdlib.h>
+#include <time.h>
+
 #include <fstream>
 
 #include "evaluator/counting/log_kicks.hpp"
@@ -324,8 +327,12 @@ TEST_F(Notes, OfMatchOpponentAndVenueTheLatestHolds) {
   additions.add(log::Note{of, "match", "semi-final", "Ada"}, 1000);
   additions.add(log::Note{of, "venue", "Hall 3", "Ada"}, 1000);
   additions.add(log::Note{of, "venue", std::nullopt, "Ada"}, 2000);
+  ::setenv("TZ", "Asia/Tokyo", 1);  // UTC wherever it is read
+  ::tzset();
   std::vector<std::string> lines;
   for (const SessionNote& note : make_report(Reader(path())).notes) lines.push_back(line_of(note));
+  ::unsetenv("TZ");
+  ::tzset();
   EXPECT_THAT(lines,
               ElementsAre("Match: semi-final", "Opponent: Them", "Note of Ada, 1970-01-01 00:00 UTC: a post leans",
                           "Note of Grace, 1970-01-01 00:00 UTC: rain"));
