@@ -14,15 +14,27 @@ double p_of(const stats::Clustered& clustered) {
   return stats::student_p(clustered.value / clustered.standard_error, clustered.df);
 }
 
-// Kicks of each policy for a difference of this size, by the ratio of the variance seen to that of independent kicks.
-std::optional<double> needed(const Effect& effect, double standard_error, double difference) {
+/// The ratio of the variance seen to that of independent kicks: of standard errors, or of intervals of one kind. 1
+/// where nothing is clustered, paired or standardised.
+double variance_ratio(const Effect& effect, const std::optional<stats::Clustered>& clustered, stats::Interval ci) {
+  if (!clustered) {
+    const auto independent = stats::newcombe_or_exact(effect.older, effect.newer);
+    return stats::square((ci.hi - ci.lo) / (independent.hi - independent.lo));
+  }
   const double p1 = *stats::efficiency(effect.older), p2 = *stats::efficiency(effect.newer);
   const double independent =
       p1 * (1.0 - p1) / static_cast<double>(effect.older.n) + p2 * (1.0 - p2) / static_cast<double>(effect.newer.n);
+  const bool known = independent > 0.0 && clustered->standard_error > 0.0;
+  return known ? stats::square(clustered->standard_error) / independent : 1.0;
+}
+
+// Kicks of each policy for a difference of this size.
+std::optional<double> needed(const Effect& effect, double variance_ratio, double difference) {
+  const double p1 = *stats::efficiency(effect.older);
   const double other = p1 + difference <= 1.0 && p1 + difference >= 0.0 ? p1 + difference : p1 - difference;
   const auto kicks = stats::kicks_per_policy(p1, std::clamp(other, 0.0, 1.0));
   if (!kicks) return std::nullopt;
-  return *kicks * (independent > 0.0 && standard_error > 0.0 ? stats::square(standard_error) / independent : 1.0);
+  return *kicks * variance_ratio;
 }
 
 void rest_on_matches(Headline& result, const PairResult& pair, const stats::Clustered& clustered) {
@@ -77,12 +89,11 @@ Headline headline_of(const PairResult& pair, double smallest_effect) {
   } else {
     rest_on_counts(result, pair, crude);
   }
-  const double standard_error =
-      clustered ? clustered->standard_error : 0.5 * (result.ci.hi - result.ci.lo) / stats::z_of(stats::kConfidence);
+  const double ratio = variance_ratio(crude, clustered, result.ci);
   result.p_holm = result.p;
   result.verdict = stats::verdict(result.ci, smallest_effect);
-  result.needed_for_smallest = needed(crude, standard_error, smallest_effect).value_or(0.0);
-  result.needed_for_seen = needed(crude, standard_error, result.difference);
+  result.needed_for_smallest = needed(crude, ratio, smallest_effect).value_or(0.0);
+  result.needed_for_seen = needed(crude, ratio, result.difference);
   return result;
 }
 

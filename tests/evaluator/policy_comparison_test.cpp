@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "evaluator/counting/log_kicks.hpp"
+#include "evaluator/stats/test_plan.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 #include "tests/evaluator/random_numbers.hpp"
@@ -152,6 +153,20 @@ TEST_F(PolicyComparisonTest, ArmsOnTheSameOpportunitiesArePaired) {
   EXPECT_THAT(text, HasSubstr("both had the same opportunities"));
   EXPECT_THAT(text, HasSubstr("SIMULATED"));
   EXPECT_THAT(text, HasSubstr("McNemar"));
+}
+
+TEST_F(PolicyComparisonTest, WhereNothingIsClusteredAsManyAreNeededAsOfTheSameCounts) {
+  TestExperiment experiment(path(), 1);
+  experiment.begin();
+  experiment.session(0, 0, "", {{1, "stopped"}, {2, "moving"}});
+  for (std::int64_t i = 1; i <= 39; ++i) experiment.possession(1, i, "stopped", 1.0, i <= 15 ? kIn : kOut);
+  for (std::int64_t i = 1; i <= 41; ++i) experiment.possession(2, i, "moving", 1.0, i <= 22 ? kIn : kOut);
+  experiment.commit();
+  experiment.finish();
+  const auto result = compared();
+  const Headline& headline = *result.pairs[0].headline;
+  EXPECT_FALSE(headline.by_match);
+  EXPECT_NEAR(*headline.needed_for_seen, *stats::kicks_per_policy(15.0 / 39.0, 22.0 / 41.0), 1e-9);
 }
 
 TEST_F(PolicyComparisonTest, TheSameArmsByPolicyOrTableAreReadToo) {
