@@ -61,18 +61,29 @@ GroupResult group_result(const KickDataset& dataset, std::uint32_t group) {
   return result;
 }
 
+/// The cells, by match and calibration as cells_of() has them, of all strata together.
+std::vector<stats::MatchCounts> without_strata(const std::vector<stats::MatchCounts>& cells) {
+  std::vector<stats::MatchCounts> result;
+  for (const stats::MatchCounts& cell : cells) {
+    if (result.empty() || result.back().match != cell.match || result.back().calibration != cell.calibration)
+      result.push_back({cell.match, 0, {}, {}, cell.calibration});
+    add(result.back().older, cell.older);
+    add(result.back().newer, cell.newer);
+  }
+  return result;
+}
+
 // The crude difference: over all strata together.
-std::optional<Effect> effect(std::vector<stats::MatchCounts> cells, bool has_matches) {
+std::optional<Effect> effect(const std::vector<stats::MatchCounts>& cells, bool has_matches) {
   Effect result;
-  for (stats::MatchCounts& cell : cells) {
+  for (const stats::MatchCounts& cell : cells) {
     add(result.older, cell.older);
     add(result.newer, cell.newer);
-    cell.stratum = 0;
   }
   if (result.older.n == 0 || result.newer.n == 0) return std::nullopt;
   result.difference = *stats::efficiency(result.newer) - *stats::efficiency(result.older);
   result.independent = stats::newcombe_or_exact(result.older, result.newer);
-  if (has_matches) result.clustered = stats::clustered_difference(cells);
+  if (has_matches) result.clustered = stats::clustered_difference(without_strata(cells));
   return result;
 }
 

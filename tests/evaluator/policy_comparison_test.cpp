@@ -169,6 +169,15 @@ TEST_F(PolicyComparisonTest, WhereNothingIsClusteredAsManyAreNeededAsOfTheSameCo
   EXPECT_NEAR(*headline.needed_for_seen, *stats::kicks_per_policy(15.0 / 39.0, 22.0 / 41.0), 1e-9);
 }
 
+TEST_F(PolicyComparisonTest, StrataLeaveTheCrudeDifferenceAsItIs) {
+  write_paired(10);
+  const auto crude = compared().pairs[0].efficiency->clustered;
+  const auto stratified = compared({.stratify = "distance"}).pairs[0].efficiency->clustered;
+  ASSERT_TRUE(crude && stratified);
+  EXPECT_EQ(stratified->ci.lo, crude->ci.lo);
+  EXPECT_EQ(stratified->ci.hi, crude->ci.hi);
+}
+
 TEST_F(PolicyComparisonTest, TheSameArmsByPolicyOrTableAreReadToo) {
   write_paired(6);
   EXPECT_EQ(compared({.by = "policy"}).groups[0].name, "stopped");
