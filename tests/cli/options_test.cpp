@@ -103,6 +103,16 @@ TEST(WrittenFiles, ThatMustBeNewMayBeEmptyAndNothingElse) {
   }
 }
 
+TEST(WorldOption, AValueOfWhatTheWorldHasNotIsBadUsage) {
+  World world;
+  for (const char* const line : {"keeper.reaction_s=0.15", "keeper.speed_mps = 2.5", "kicker.flat.delay_s=0.1"}) {
+    world.changes = {line};
+    EXPECT_THAT([&] { world.load(); }, ThrowsMessage<UsageError>(HasSubstr(".enabled = false in this world"))) << line;
+  }
+  world.changes = {"keeper.reaction_s=0.15", "keeper.enabled=true", "kicker.delay_s=0.03"};
+  EXPECT_EQ(world.load().keeper.guard.reaction_s, 0.15);
+}
+
 TEST(ReadableFiles, AFolderOrNothingFailsWithItsReasonAndIsNoBadUsage) {
   const tests::Folder folder;
   const CLI::Validator check = readable_file();
