@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -8,6 +9,7 @@
 #include "cli/verbs.hpp"
 #include "evaluator/counting/metrics.hpp"
 #include "evaluator/render/text_table.hpp"
+#include "kicking/text/printable.hpp"
 #include "log/read/reader.hpp"
 
 namespace trivela::cli {
@@ -82,6 +84,10 @@ void print_rows(log::Reader& reader, const QueryArguments& arguments) {
       reader, arguments.log, asked,
       [&](const std::vector<std::string>& columns) {
         names = columns;
+        for (const std::string& name : names)
+          if (arguments.json && std::ranges::count(names, name) > 1)
+            throw UsageError{fmt::format("two columns are called '{}', which JSON cannot say: name them with AS",
+                                         kicking::printable(name))};
         const std::vector<LogCell> head(names.begin(), names.end());
         if (arguments.csv) fmt::print("{}", csv_line_of(head));
         if (!arguments.csv && !arguments.json) rows.push_back(names);

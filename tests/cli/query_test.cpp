@@ -73,6 +73,11 @@ TEST_F(QueryVerb, AnswersAQuestionOfOnesOwn) {
   EXPECT_EQ(said({path(), "SELECT 1 AS n WHERE 0", "--json"}), "[]\n");
 }
 
+TEST_F(QueryVerb, TwoColumnsOfOneNameAreNoJson) {
+  EXPECT_THAT(refusal({path(), "select 1 as a, 2 as a", "--json"}), HasSubstr("two columns are called 'a'"));
+  EXPECT_EQ(said({path(), "select 1 as a, 2 as a", "--csv"}), "a,a\n1,2\n");
+}
+
 TEST_F(QueryVerb, WhatATerminalCouldObeyIsWrittenOut) {
   const std::string sql = "SELECT char(27) || '[31m' || char(8238) AS red, '=1+1' AS formula, -1 AS number";
   EXPECT_THAT(said({path(), sql}), HasSubstr("\\x1b[31m"));
