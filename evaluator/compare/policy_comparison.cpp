@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
@@ -55,9 +56,15 @@ GroupResult group_result(const KickDataset& dataset, std::uint32_t group) {
   result.goals_ci =
       stats::clustered_wilson(goals).value_or(stats::wilson_or_exact({result.goals(), result.opportunities}));
   result.by_match = by_match.has_value();
+  std::set<std::uint32_t> timed;
   for (const auto& [key, minutes] : dataset.minutes) {
+    timed.insert(key.second);
     if (key.first == group) result.played_min = result.played_min.value_or(0.0) + minutes;
   }
+  const auto has_no_minutes = [&](const Opportunity& o) {
+    return o.group == group && o.ending != Ending::kNoKick && !timed.contains(o.match);
+  };
+  if (std::ranges::any_of(dataset.opportunities, has_no_minutes)) result.played_min.reset();
   return result;
 }
 

@@ -60,12 +60,17 @@ void KickCounts::add(const Opportunity& o) {
 }
 
 KickCounts& KickCounts::operator+=(const KickCounts& other) {
+  const auto has_minutes = [](const KickCounts& of) { return of.played_min || of.kicks() == 0; };
+  if (!has_minutes(*this) || !has_minutes(other)) {
+    played_min.reset();
+  } else if (other.played_min) {
+    played_min = played_min.value_or(0.0) + *other.played_min;
+  }
   for (const auto& [outcome, n] : other.kicks_by_outcome) kicks_by_outcome[outcome] += n;
   doubt += other.doubt;
   inside_kicks.bounced += other.inside_kicks.bounced;
   inside_kicks.saved += other.inside_kicks.saved;
   inside_kicks.by_people += other.inside_kicks.by_people;
-  if (other.played_min) played_min = played_min.value_or(0.0) + *other.played_min;
   return *this;
 }
 

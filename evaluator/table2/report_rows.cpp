@@ -98,10 +98,16 @@ void add_minutes(Rows& rows, const LoggedOpportunities& logged) {
   }
 }
 
+// Where the minutes of some of the kicks are not known, those of the others make no rate.
 void add_kicks(Rows& rows, const LoggedOpportunities& logged) {
+  std::set<std::uint32_t> timed;  // plays
+  for (const PlayedSpan& span : logged.spans) timed.insert(logged.sessions[span.session].play);
   for (const CountedKick& kick : logged.kicks) {
-    rows.of_both(kick.robot_id, logged.sessions[kick.session].session_id, kick.policy,
-                 [&](RobotRow& row) { row.add(kick.outcome.empty() ? "unknown" : kick.outcome, kick.said); });
+    const bool has_minutes = timed.contains(logged.sessions[kick.session].play);
+    rows.of_both(kick.robot_id, logged.sessions[kick.session].session_id, kick.policy, [&](RobotRow& row) {
+      row.add(kick.outcome.empty() ? "unknown" : kick.outcome, kick.said);
+      if (!has_minutes) row.played_min.reset();
+    });
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "evaluator/counting/log_kicks.hpp"
 #include "evaluator/stats/test_plan.hpp"
+#include "evaluator/table2/table2.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 #include "tests/evaluator/random_numbers.hpp"
@@ -167,6 +168,40 @@ TEST_F(PolicyComparisonTest, WhereNothingIsClusteredAsManyAreNeededAsOfTheSameCo
   const Headline& headline = *result.pairs[0].headline;
   EXPECT_FALSE(headline.by_match);
   EXPECT_NEAR(*headline.needed_for_seen, *stats::kicks_per_policy(15.0 / 39.0, 22.0 / 41.0), 1e-9);
+}
+
+TEST_F(PolicyComparisonTest, MinutesOfSomeOfTheKicksMakeNoRate) {
+  write_paired(6);
+  EXPECT_TRUE(compared().groups[0].kicks_per_min());
+  TestExperiment experiment(path("untimed.db"), 1);
+  experiment.run = "untimed";
+  experiment.begin();
+  experiment.session(7, 0, "slow", {{1, "stopped"}});
+  experiment.possession(1, 1, "stopped", 1.0, kIn);
+  experiment.commit();
+  experiment.finish();
+  const auto result = compared({.by = "policy"}, {"match.db", "untimed.db"});
+  EXPECT_FALSE(result.groups[0].kicks_per_min()) << "stopped";
+  EXPECT_TRUE(result.groups[1].kicks_per_min()) << "moving";
+}
+
+TEST_F(PolicyComparisonTest, MinutesOfSomeOfTheKicksMakeNoRateInAReportEither) {
+  TestExperiment experiment(path(), 2);
+  experiment.begin();
+  experiment.session(0, 0, "", {{1, "stopped"}, {2, "moving"}});
+  experiment.played(1, 10.0);
+  experiment.played(2, 10.0);
+  experiment.possession(1, 1, "stopped", 1.0, kIn);
+  experiment.possession(2, 2, "moving", 1.0, kIn);
+  experiment.session(1, 0, "", {{1, "stopped"}});
+  experiment.possession(1, 1, "stopped", 1.0, kIn);
+  experiment.commit();
+  experiment.finish();
+  const Report report = make_report(log::Reader(path()));
+  ASSERT_EQ(report.policies.size(), 2U);
+  EXPECT_FALSE(report.policies[0].kicks_per_min()) << "stopped";
+  EXPECT_TRUE(report.policies[1].kicks_per_min()) << "moving";
+  EXPECT_FALSE((KickCounts(report.policies[1]) += report.policies[0]).kicks_per_min()) << "together";
 }
 
 TEST_F(PolicyComparisonTest, StrataLeaveTheCrudeDifferenceAsItIs) {
