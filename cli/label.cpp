@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "evaluator/counting/log_opportunities.hpp"
 #include "evaluator/counting/named_kicks.hpp"
 #include "evaluator/render/text_table.hpp"
+#include "kicking/text/printable.hpp"
 #include "log/write/additions.hpp"
 #include "pages/labels/label_server.hpp"
 
@@ -50,12 +52,16 @@ int list_kicks(const LabelArguments& arguments) {
   std::vector<std::vector<std::string>> table{{"kick", "at s", "policy", "observer", "by hand", "who"}};
   std::size_t unknown = 0;
   const auto kicks = counted_kicks(arguments.log);
+  const bool one_session = std::ranges::all_of(kicks, [&](const auto& kick) { return kick.uuid == kicks[0].uuid; });
+  if (!one_session) table[0].emplace_back("--session");
   for (const NamedKick& kick : kicks) {
     unknown += kick.unknown() ? 1 : 0;
     if (!kick.unknown() && !kick.by_hand) continue;
     table.push_back({kick.name(), fmt::format("{:.2f}", kick.at_s), kick.policy,
                      kick.observed.empty() ? "-" : evaluator::words(kick.observed),
-                     kick.by_hand ? evaluator::words(*kick.by_hand) : "-", kick.labelled_by.value_or("-")});
+                     kick.by_hand ? evaluator::words(*kick.by_hand) : "-",
+                     kicking::printable(kick.labelled_by.value_or("-"))});
+    if (!one_session) table.back().push_back(kicking::printable(kick.uuid));
   }
   if (table.size() > 1) say(evaluator::text_table(table));
   say(fmt::format("{} of {} kicks are unknown\n", unknown, kicks.size()));
@@ -79,9 +85,9 @@ int add_one(const LabelArguments& arguments) {
   const std::string observed = kick.observed.empty() ? "nothing" : evaluator::words(kick.observed);
   say(arguments.withdraw
           ? fmt::format("{}: {} by {} is withdrawn; the observer says {}, and that holds\n", text_of(kick),
-                        evaluator::words(*kick.by_hand), kick.labelled_by.value_or("?"), observed)
+                        evaluator::words(*kick.by_hand), kicking::printable(kick.labelled_by.value_or("?")), observed)
           : fmt::format("{}: {}, says {}; the observer says {}\n", text_of(kick), evaluator::words(arguments.outcome),
-                        arguments.who, observed));
+                        kicking::printable(arguments.who), observed));
   return kDone;
 }
 

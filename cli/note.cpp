@@ -8,6 +8,7 @@
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/sessions/session_notes.hpp"
+#include "kicking/text/printable.hpp"
 #include "log/read/reader.hpp"
 #include "log/write/additions.hpp"
 
@@ -42,8 +43,9 @@ int list_notes(const NoteArguments& arguments) {
   const auto notes = evaluator::session_notes(reader);
   for (const evaluator::SessionNote& note : notes) {
     if (!note.uuid.starts_with(arguments.session)) continue;
-    say(fmt::format("{:.8} {}{}{}\n", note.uuid, evaluator::line_of(note),
-                    note.kind == "note" ? "" : fmt::format(" ({})", note.who), note.holds ? "" : " - no longer holds"));
+    say(fmt::format("{:.8} {}{}{}\n", note.uuid, kicking::printable(evaluator::line_of(note)),
+                    note.kind == "note" ? "" : fmt::format(" ({})", kicking::printable(note.who)),
+                    note.holds ? "" : " - no longer holds"));
   }
   if (notes.empty()) say("nobody has noted anything\n");
   return kDone;

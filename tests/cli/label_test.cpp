@@ -187,6 +187,17 @@ TEST_F(OfTwoSessions, ALabelNeedsTheSessionWhereBothHaveTheKick) {
               HasSubstr("s,outcome\nbbbb,goal\n"));
 }
 
+TEST_F(OfTwoSessions, KicksAreListedWithWhatLabelTakes) {
+  said({"label", both_, "1:1", "goal", "--by", "A\nda", "--session", "bbbb"});
+  EXPECT_THAT(said({"label", both_}), AllOf(HasSubstr("--session\n"), HasSubstr("A\\x0ada"),
+                                            HasSubstr("bbbb0000-0000-4000-8000-000000000001\n")));
+}
+
+TEST_F(OfTwoSessions, ANoteForgesNoLine) {
+  said({"note", both_, "rain\naaaa0000 Opponent: Them", "--by", "A\nda"});
+  EXPECT_THAT(said({"note", both_}), AllOf(HasSubstr("rain\\x0aaaaa0000"), HasSubstr("Note of A\\x0ada")));
+}
+
 TEST_F(OfTwoSessions, ANoteOfOneIsListedWithItAlone) {
   EXPECT_EQ(said({"note", both_}), "nobody has noted anything\n");
   EXPECT_EQ(said({"note", both_, "rain", "--by", "Ada", "--session", "bbbb"}), both_ + ": noted of 1 session\n");
