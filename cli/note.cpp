@@ -43,7 +43,7 @@ int list_notes(const NoteArguments& arguments) {
   const auto notes = evaluator::session_notes(reader);
   for (const evaluator::SessionNote& note : notes) {
     if (!note.uuid.starts_with(arguments.session)) continue;
-    say(fmt::format("{:.8} {}{}{}\n", note.uuid, kicking::printable(evaluator::line_of(note)),
+    say(fmt::format("{}{}{}\n", kicking::printable(evaluator::line_of(note)),
                     note.kind == "note" ? "" : fmt::format(" ({})", kicking::printable(note.who)),
                     note.holds ? "" : " - no longer holds"));
   }

@@ -32,21 +32,22 @@ std::vector<SessionNote> session_notes(const log::Reader& reader) {
 
 std::vector<SessionNote> notes_that_hold(const std::vector<SessionNote>& notes) {
   const auto place = [](const SessionNote& note) { return std::ranges::find(log::kNoteKinds, note.kind); };
-  std::set<std::tuple<std::string, std::string>> said;
+  std::set<std::tuple<std::string, std::string, std::string>> said;
   std::vector<SessionNote> held;
   for (const SessionNote& note : notes)
-    if (note.holds && said.emplace(note.kind, *note.text).second) held.push_back(note);
+    if (note.holds && said.emplace(note.uuid, note.kind, *note.text).second) held.push_back(note);
   std::ranges::stable_sort(held, {}, [&](const SessionNote& note) { return std::pair(place(note), note.utc_ns); });
   return held;
 }
 
 std::string line_of(const SessionNote& note) {
+  const std::string of = note.uuid.empty() ? "" : fmt::format("{:.8} ", note.uuid);
   const std::string text = note.text.value_or("(withdrawn)");
-  if (note.kind == "match") return "Match: " + text;
-  if (note.kind == "opponent") return "Opponent: " + text;
-  if (note.kind == "venue") return "Venue: " + text;
+  if (note.kind == "match") return of + "Match: " + text;
+  if (note.kind == "opponent") return of + "Opponent: " + text;
+  if (note.kind == "venue") return of + "Venue: " + text;
   const std::chrono::sys_time<std::chrono::nanoseconds> at{std::chrono::nanoseconds{note.utc_ns}};
-  return fmt::format("Note of {}, {:%Y-%m-%d %H:%M} UTC: {}", note.who,
+  return fmt::format("{}Note of {}, {:%Y-%m-%d %H:%M} UTC: {}", of, note.who,
                      fmt::gmtime(std::chrono::floor<std::chrono::seconds>(at)), text);
 }
 

@@ -159,7 +159,9 @@ std::string to_json(const Report& report) {
     return json;
   };
   const auto note_json = [](const SessionNote& note) {
-    return Json{{"kind", note.kind}, {"text", *note.text}, {"who", note.who}, {"utc_ns", note.utc_ns}};
+    Json json{{"kind", note.kind}, {"text", *note.text}, {"who", note.who}, {"utc_ns", note.utc_ns}};
+    if (!note.uuid.empty()) json["session"] = note.uuid;
+    return json;
   };
   Json json = {{"simulated", report.simulated_sessions() > 0},
                {"logs", report.logs},

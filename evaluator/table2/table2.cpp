@@ -152,6 +152,22 @@ void warn_of_replays(Report& report) {
   }
 }
 
+/// What is said of all sessions alike stands once and is of none of them alone; the rest keeps its session.
+std::vector<SessionNote> joined(const std::vector<SessionNote>& notes, std::size_t sessions) {
+  std::map<std::pair<std::string, std::string>, std::size_t> said;
+  for (const SessionNote& note : notes) ++said[{note.kind, *note.text}];
+  std::vector<SessionNote> result;
+  for (const SessionNote& note : notes) {
+    std::size_t& times = said[{note.kind, *note.text}];
+    if (times == 0) continue;
+    result.push_back(note);
+    if (times < sessions) continue;
+    result.back().uuid.clear();
+    times = 0;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::int64_t Report::rows_missing() const {
@@ -192,7 +208,7 @@ Report make_report(std::span<const OpenLog> logs, bool blocked_apart) {
     readers.push_back(logs[i].reader);
   }
   for (auto& [stream, loss] : losses) report.losses.push_back(std::move(loss));
-  report.notes = notes_that_hold(report.notes);
+  report.notes = joined(notes_that_hold(report.notes), report.sessions.size());
   std::ranges::stable_sort(report.refused_orders, PolicyOrder{}, &RefusedOrders::policy);
   forget_absent_robots(report.sessions, logged);
   report.lengths = played_lengths(readers, logged.sessions);

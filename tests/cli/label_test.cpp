@@ -193,6 +193,20 @@ TEST_F(OfTwoSessions, KicksAreListedWithWhatLabelTakes) {
                                             HasSubstr("bbbb0000-0000-4000-8000-000000000001\n")));
 }
 
+TEST_F(OfTwoSessions, AReportSaysOfWhichSessionANoteIs) {
+  said({"note", both_, "--opponent", "Them", "--by", "Ada", "--session", "aaaa"});
+  said({"note", both_, "--opponent", "Others", "--by", "Ada", "--session", "bbbb"});
+  said({"note", both_, "--venue", "Hall 3", "--by", "Ada"});
+  const auto report = [&](const Words& flags) {
+    Words words{"report", both_};
+    words.insert(words.end(), flags.begin(), flags.end());
+    return run_verbs({add_report}, words).out;
+  };
+  EXPECT_THAT(report({}), AllOf(HasSubstr("aaaa0000 Opponent: Them\n"), HasSubstr("bbbb0000 Opponent: Others\n"),
+                                HasSubstr("\nVenue: Hall 3\n")));
+  EXPECT_THAT(report({"--json"}), HasSubstr("\"session\": \"aaaa0000-0000-4000-8000-000000000001\""));
+}
+
 TEST_F(OfTwoSessions, ANoteForgesNoLine) {
   said({"note", both_, "rain\naaaa0000 Opponent: Them", "--by", "A\nda"});
   EXPECT_THAT(said({"note", both_}), AllOf(HasSubstr("rain\\x0aaaaa0000"), HasSubstr("Note of A\\x0ada")));
