@@ -153,6 +153,8 @@ LogFile::LogFile(const fs::path& path, const LogKind& kind, Check check)
       whole_(check == Check::kWhole),
       budget_(std::make_unique<Budget>()) {
   if (fs::is_directory(path)) throw NoSuchLog(fmt::format("{} is a folder, no {}", path_, kind.name));
+  if (fs::exists(path) && !fs::is_regular_file(path))
+    throw NoSuchLog(fmt::format("{} is a pipe or a device, no {}", path_, kind.name));
   if (!fs::is_regular_file(path)) {
     throw NoSuchLog(fmt::format("there is no {} {}{}", kind.name, path_,
                                 path.is_relative() ? " (in " + fs::current_path().string() + ")" : ""));

@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "evaluator/sessions/log_findings.hpp"
+#include "log/file/log_file.hpp"
 #include "log/merge/merge.hpp"
 #include "log/read/reader.hpp"
 #include "log/write/additions.hpp"
@@ -106,6 +107,15 @@ TEST_F(FilesBeside, NothingIsWrittenToALogBesideTheWalOfAnother) {
     EXPECT_THAT(error.what(), HasSubstr("whole.db-wal is not of"));
   }
   EXPECT_EQ(kicks_in(path("whole.db")), 3);
+}
+
+TEST_F(FilesBeside, ADeviceIsThereButNoLog) {
+  try {
+    const log::Reader reader("/dev/null");
+    ADD_FAILURE();
+  } catch (const log::NoSuchLog& error) {
+    EXPECT_STREQ(error.what(), "/dev/null is a pipe or a device, no match log");
+  }
 }
 
 TEST_F(FilesBeside, ReadingLeavesNothingAndSaysTheSameTwice) {
