@@ -2,21 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/options/number_checks.hpp"
 #include "config/scenario/scenario.hpp"
 
 namespace trivela::cli {
 namespace {
 
-/// Throws UsageError where the line names a value of something that the world has not: a keeper, a lever, a laser.
-void refuse_without_effect(const std::string& line, const std::map<std::string, std::string>& values) {
-  const std::string key = line.substr(0, line.find_first_of(" \t="));
+/// The key by which the scenario has nothing of what `key` is a value of: a keeper, a lever, a laser. Empty: it has it.
+std::string switched_off(const std::string& key, const sim::Scenario& scenario) {
+  const auto values = config::scenario_values(scenario);
   for (auto dot = key.find('.'); dot != std::string::npos; dot = key.find('.', dot + 1)) {
-    const std::string enabled = key.substr(0, dot) + ".enabled";
+    std::string enabled = key.substr(0, dot) + ".enabled";
     const auto value = values.find(enabled);
-    if (key != enabled && value != values.end() && value->second == "false")
-      throw UsageError{fmt::format("--world {}: {} has no effect, since {} = false in this world", line, key, enabled)};
+    if (key != enabled && value != values.end() && value->second == "false") return enabled;
   }
+  return {};
 }
 
 }  // namespace
@@ -24,9 +26,17 @@ void refuse_without_effect(const std::string& line, const std::map<std::string, 
 sim::Scenario World::load() const {
   sim::Scenario scenario = config::load_scenario(file);
   for (const std::string& line : changes) config::override_scenario(scenario, line, "--world");
-  const auto values = config::scenario_values(scenario);
-  for (const std::string& line : changes) refuse_without_effect(line, values);
   return scenario;
+}
+
+void World::require_effect(const std::vector<sim::Scenario>& played) const {
+  for (const std::string& line : changes) {
+    const std::string key = line.substr(0, line.find_first_of(" \t="));
+    const auto has_it = [&](const sim::Scenario& scenario) { return switched_off(key, scenario).empty(); };
+    if (std::ranges::none_of(played, has_it))
+      throw UsageError{fmt::format("--world {}: {} has no effect, since {} = false in {}", line, key,
+                                   switched_off(key, played.front()), played.size() > 1 ? "all worlds" : "this world")};
+  }
 }
 
 std::string World::named(const std::string& base) const {

@@ -17,6 +17,9 @@ struct World {
   /// Throws config::Error naming file or line, key and value.
   sim::Scenario load() const;
 
+  /// Throws UsageError where a change is of something that none of the scenarios has, such as a keeper.
+  void require_effect(const std::vector<sim::Scenario>& played) const;
+
   /// `base`, which is the file's name with or without its ending, and the changes.
   std::string named(const std::string& base) const;
 };

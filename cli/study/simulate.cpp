@@ -52,6 +52,7 @@ int simulate(const SimulateFlags& flags) {
   check_shard(flags.shard, flags.matches);
   experiment::ExperimentPlan plan;
   plan.scenario = flags.world.load();
+  flags.world.require_effect({plan.scenario});
   plan.scenario_name = flags.world.named(std::filesystem::path{flags.world.file}.stem().string());
   plan.arms = experiment::arms_of(flags.arms, flags.base);
   plan.seed = flags.seed;

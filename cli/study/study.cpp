@@ -172,6 +172,9 @@ ExitCode run_study(StudyFlags flags, const std::function<experiment::Study(const
   flags.require_writable();
   const sim::Scenario scenario = flags.world.load();
   const experiment::Study study = make(scenario);
+  std::vector<sim::Scenario> played;
+  for (const experiment::StudyWorld& world : study.worlds) played.push_back(world.scenario);
+  flags.world.require_effect(played);
   flags.draw_calibrations(scenario);
   const std::vector<experiment::Arm>& arms = study.worlds.front().arms;
   if (flags.calibrations == 0) warn_of_shared_robots(scenario, arms);

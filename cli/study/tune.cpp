@@ -117,6 +117,7 @@ int study_tune(const TuneFlags& asked) {
   TuneFlags flags = asked;
   check(flags);
   const sim::Scenario scenario = flags.world.load();
+  flags.world.require_effect({scenario});
   const experiment::Arm arm = experiment::arms_of(flags.policy, flags.base).front();
   experiment::check_playable(scenario, arm, flags.plan.possessions);
   TuneFlags other = flags;

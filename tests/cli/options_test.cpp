@@ -107,10 +107,18 @@ TEST(WorldOption, AValueOfWhatTheWorldHasNotIsBadUsage) {
   World world;
   for (const char* const line : {"keeper.reaction_s=0.15", "keeper.speed_mps = 2.5", "kicker.flat.delay_s=0.1"}) {
     world.changes = {line};
-    EXPECT_THAT([&] { world.load(); }, ThrowsMessage<UsageError>(HasSubstr(".enabled = false in this world"))) << line;
+    EXPECT_THAT([&] { world.require_effect({world.load()}); },
+                ThrowsMessage<UsageError>(HasSubstr(".enabled = false in this world")))
+        << line;
   }
+  world.changes = {"keeper.reaction_s=0.15"};
+  const sim::Scenario without = world.load();
+  sim::Scenario with = without;
+  with.keeper.enabled = true;
+  EXPECT_NO_THROW(world.require_effect({without, with})) << "one of a study's worlds has it";
+  EXPECT_THAT([&] { world.require_effect({without, without}); }, ThrowsMessage<UsageError>(HasSubstr("in all worlds")));
   world.changes = {"keeper.reaction_s=0.15", "keeper.enabled=true", "kicker.delay_s=0.03"};
-  EXPECT_EQ(world.load().keeper.guard.reaction_s, 0.15);
+  world.require_effect({world.load()});
 }
 
 TEST(ReadableFiles, AFolderOrNothingFailsWithItsReasonAndIsNoBadUsage) {
