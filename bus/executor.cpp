@@ -45,6 +45,7 @@ void Executor::run() {
       if (node->on_stop_) node->on_stop_();
   });
   finish();
+  StopOnSignals::lift_limit();
   if (failure_) std::rethrow_exception(failure_);
 }
 

@@ -80,8 +80,10 @@ StopOnSignals::StopOnSignals(Stop& stop, std::chrono::seconds limit) {
   }
 }
 
+void StopOnSignals::lift_limit() noexcept { alarm(0); }
+
 StopOnSignals::~StopOnSignals() {
-  alarm(0);
+  lift_limit();
   for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &g_before[i], nullptr);
   g_stop.store(nullptr);
 }

@@ -56,10 +56,11 @@ bool any_is_shard(const std::vector<std::filesystem::path>& files);
 /// merge() of the shards of one experiment, in any order, into the rows that one run writes. A shard may be there
 /// twice, and beside the whole experiment's log. `told`: rows that were read, of how many; false: stop.
 /// Throws, and leaves nothing behind:
-/// - Stopped where `told` says so
-/// - std::runtime_error naming the file where it is no shard, of another experiment or version, damaged or not finished
-/// - std::runtime_error where two say different things of a session, one is missing, or `to` exists or cannot be
-/// written
+/// - Stopped where `told` says so.
+/// - std::runtime_error naming the file where it is no shard, of another experiment or version, damaged or not
+/// finished.
+/// - std::runtime_error where two say different things of a session, or one is missing.
+/// - std::runtime_error where `to` exists or cannot be written.
 MergedShards merge_shards(
     const std::vector<std::filesystem::path>& files, const std::filesystem::path& to,
     const std::function<bool(std::int64_t read, std::int64_t all)>& told = [](auto, auto) { return true; });

@@ -8,9 +8,10 @@
 namespace trivela::pages {
 
 /// Serves the page that asks what became of kicks, on this machine alone (127.0.0.1): /, /api/kicks, /api/timeline?i=N
-/// and POST /api/label with JSON. Refused is who names another host (a name server that somebody else rules could lead
-/// a browser here), who comes from a page of another site, and who writes without the token of url(), which this server
-/// made and no other program of the machine can guess. Threads of its own.
+/// and POST /api/label with JSON. It has threads of its own. It refuses a request
+/// - that names another host, since another's name server could lead a browser here
+/// - that comes from a page of another site
+/// - that writes without the token of url(), which it made and no other program can guess.
 class LabelServer {
  public:
   /// Listens. `port` 0: any free one. Throws std::runtime_error naming the address where that is refused. The store

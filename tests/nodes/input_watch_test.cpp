@@ -15,8 +15,8 @@ class InputWatchTest : public NodeTest {
   class Voice {
    public:
     explicit Voice(const bus::Participant& participant) : says_(participant) {
-      node_ = std::make_unique<bus::Node>(participant, "voice");
-      node_->every(std::chrono::milliseconds{10}, "voice", [this] { says_(T{}); });
+      node_ = std::make_unique<bus::Node>(participant, "writer");
+      node_->every(std::chrono::milliseconds{10}, "writer", [this] { says_(T{}); });
       thread_ = std::thread{[this] { bus::Executor{Executor::kListener, stop_, {node_.get()}}.run(); }};
     }
     ~Voice() {

@@ -25,41 +25,41 @@ sim::RefereeState word(int half, bool playing, std::uint32_t possession_id, std:
 }
 
 TEST(RefereeOutput, SaysWhatBeginsAHalfThenEachStopSetPieceAndStartOnce) {
-  RefereeOutput voice;
-  EXPECT_THAT(voice.receive(word(1, false, 1)), ElementsAre(all(kFirstHalf), ours(kKickOff)));
-  EXPECT_THAT(voice.receive(word(1, false, 1)), IsEmpty());
-  EXPECT_THAT(voice.receive(word(1, true, 1)), ElementsAre(all(kStart)));
-  EXPECT_THAT(voice.receive(word(1, true, 1)), IsEmpty());
-  EXPECT_THAT(voice.receive(word(1, false, 2)), ElementsAre(all(kStop), ours(kFreeKick)));
-  EXPECT_THAT(voice.receive(word(1, true, 2)), ElementsAre(all(kStart)));
+  RefereeOutput output;
+  EXPECT_THAT(output.receive(word(1, false, 1)), ElementsAre(all(kFirstHalf), ours(kKickOff)));
+  EXPECT_THAT(output.receive(word(1, false, 1)), IsEmpty());
+  EXPECT_THAT(output.receive(word(1, true, 1)), ElementsAre(all(kStart)));
+  EXPECT_THAT(output.receive(word(1, true, 1)), IsEmpty());
+  EXPECT_THAT(output.receive(word(1, false, 2)), ElementsAre(all(kStop), ours(kFreeKick)));
+  EXPECT_THAT(output.receive(word(1, true, 2)), ElementsAre(all(kStart)));
 }
 
 TEST(RefereeOutput, GivesAGoalWhenPlayIsStopped) {
-  RefereeOutput voice;
-  voice.receive(word(1, true, 1));
-  EXPECT_THAT(voice.receive(word(1, true, 1, 2)), IsEmpty());
-  EXPECT_THAT(voice.receive(word(1, false, 2, 2)), ElementsAre(all(kStop), ours(kGoal), ours(kGoal), ours(kFreeKick)));
+  RefereeOutput output;
+  output.receive(word(1, true, 1));
+  EXPECT_THAT(output.receive(word(1, true, 1, 2)), IsEmpty());
+  EXPECT_THAT(output.receive(word(1, false, 2, 2)), ElementsAre(all(kStop), ours(kGoal), ours(kGoal), ours(kFreeKick)));
 }
 
 TEST(RefereeOutput, EndsAHalfBeforeTheNextBegins) {
-  RefereeOutput voice;
-  voice.receive(word(1, true, 3));
-  EXPECT_THAT(voice.receive(word(1, false, 3)), ElementsAre(all(kStop)));
-  EXPECT_THAT(voice.receive(word(2, false, 1)), ElementsAre(all(kHalfTime), all(kSecondHalf), ours(kKickOff)));
-  EXPECT_THAT(voice.receive(word(3, false, 1)), ElementsAre(all(kEndGame), all(kFirstHalfOvertime), ours(kKickOff)));
-  EXPECT_THAT(voice.receive(word(4, false, 1)), ElementsAre(all(kEndPart), all(kSecondHalfOvertime), ours(kKickOff)));
+  RefereeOutput output;
+  output.receive(word(1, true, 3));
+  EXPECT_THAT(output.receive(word(1, false, 3)), ElementsAre(all(kStop)));
+  EXPECT_THAT(output.receive(word(2, false, 1)), ElementsAre(all(kHalfTime), all(kSecondHalf), ours(kKickOff)));
+  EXPECT_THAT(output.receive(word(3, false, 1)), ElementsAre(all(kEndGame), all(kFirstHalfOvertime), ours(kKickOff)));
+  EXPECT_THAT(output.receive(word(4, false, 1)), ElementsAre(all(kEndPart), all(kSecondHalfOvertime), ours(kKickOff)));
   EXPECT_THAT(RefereeOutput::over(), ElementsAre(all(kStop), all(kGameOver)));
 }
 
 TEST(RefereeOutput, AStopOfNoTimeIsSaid) {
-  RefereeOutput voice;
-  voice.receive(word(1, true, 1));
-  EXPECT_THAT(voice.receive(word(1, true, 2)), ElementsAre(all(kStop), ours(kFreeKick), all(kStart)));
+  RefereeOutput output;
+  output.receive(word(1, true, 1));
+  EXPECT_THAT(output.receive(word(1, true, 2)), ElementsAre(all(kStop), ours(kFreeKick), all(kStart)));
 }
 
 TEST(RefereeOutput, TheRightTeamIsNamedWhereItIsOurs) {
-  RefereeOutput voice{1};
-  EXPECT_THAT(voice.receive(word(1, false, 1)), ElementsAre(all(kFirstHalf), BoxCommand{.kind = kKickOff, .team = 1}));
+  RefereeOutput output{1};
+  EXPECT_THAT(output.receive(word(1, false, 1)), ElementsAre(all(kFirstHalf), BoxCommand{.kind = kKickOff, .team = 1}));
 }
 
 class RefereeVoiceOnTheWire : public testing::TestWithParam<Protocol> {};
@@ -72,11 +72,11 @@ TEST_P(RefereeVoiceOnTheWire, WhoeverHearsItKnowsTheSimulatedRefereesWord) {
   const sim::Record record = sim::play(scenario, 7, 2, 0.3, sim::fire_at_once(16));
   const BoxConfig box{.protocol = GetParam()};
   CommandStream stream{{.protocol = GetParam(), .group = box.groups[0], .colour = Colour::kCyan}};
-  RefereeOutput voice;
+  RefereeOutput output;
   MatchState state;
   state.connected();
   for (const sim::Sensors& now : record.sensors) {
-    for (const BoxCommand& said : voice.receive(now.referee)) {
+    for (const BoxCommand& said : output.receive(now.referee)) {
       for (const ParsedCommand& received : stream.add(wire_text(said, box))) {
         ASSERT_TRUE(std::holds_alternative<Command>(received)) << name(said.kind);
         state.command(std::get<Command>(received), now.t_ns);
