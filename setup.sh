@@ -64,6 +64,14 @@ install_packages() {
     { tail -n 5 "$log" >&2; stop "apt-get could not install: ${missing[*]} (log: $log)"; }
 }
 
+# past_compiler_crash COMMAND...: runs it, and once more where GCC 12 crashed as it wrote a precompiled header ("in gt_pch_save"), which
+# it does now and then: a second run goes on from there. Any other failure stays one.
+past_compiler_crash() {
+  local said
+  said=$(mktemp)
+  "$@" 2>&1 | tee "$said" || { grep -q "internal compiler error: in gt_pch_save" "$said" && "$@"; }
+}
+
 # build PRESET [TARGET...]: configures (with configure_options) and builds build/PRESET.
 configure_options=()
 build() {
@@ -72,5 +80,5 @@ build() {
   local tool
   for tool in cmake ninja g++ idlc; do command -v "$tool" >/dev/null || stop "$tool is missing though packages.txt lists its package"; done
   follow "build/logs/$preset-configure.log" cmake --preset "$preset" "${configure_options[@]}"
-  follow "build/logs/$preset-build.log" cmake --build --preset "$preset" ${@:+--target "$@"}
+  follow "build/logs/$preset-build.log" past_compiler_crash cmake --build --preset "$preset" ${@:+--target "$@"}
 }
