@@ -134,9 +134,9 @@ void Executor::notify() const {
 std::string Executor::late() const {
   const auto now = Clock::now();
   for (const Node* node : nodes_) {
-    if (node->turn_.late(now, watchdog_hook_.timeout)) return node->name();
+    if (node->deadline_.late(now, watchdog_hook_.timeout)) return node->name();
     for (const auto& slot : node->slots_)
-      if (slot->turn.late(now, watchdog_hook_.timeout)) return slot->reaction.name;
+      if (slot->deadline.late(now, watchdog_hook_.timeout)) return slot->reaction.name;
   }
   return {};
 }
@@ -185,7 +185,7 @@ void Executor::serve_topics(Node& node) {
       if (node.slots_[i]->reader) attach(i);
     const bool real_time = node.participant().hearing() != nullptr;
     while (!over()) {
-      if (real_time) node.turn_.due(Clock::now() + kPollInterval);
+      if (real_time) node.deadline_.due(Clock::now() + kPollInterval);
       for (const std::intptr_t i : waitset.wait(real_time ? kPollInterval : std::chrono::nanoseconds::max()))
         if (i >= 0) react(*node.slots_[static_cast<std::size_t>(i)]);
       if (!real_time) continue;
@@ -200,10 +200,10 @@ void Executor::serve_device(Slot& slot) {
     name_this_thread(slot.reaction.name);
     const ReactionScope scope(slot.reaction, false);
     while (!over()) {
-      slot.turn.due(Clock::now() + kDeviceTimeout);
+      slot.deadline.due(Clock::now() + kDeviceTimeout);
       slot.poll(kDeviceTimeout);
     }
-    slot.turn.idle();
+    slot.deadline.idle();
   });
 }
 
@@ -212,11 +212,11 @@ void Executor::serve_timer(Slot& slot) {
     name_this_thread(slot.reaction.name);
     const ReactionScope scope(slot.reaction, false);
     auto next = Clock::now() + slot.first;
-    for (slot.turn.due(next); !stop_.wait_until(next) && !over(); slot.turn.due(next)) {
+    for (slot.deadline.due(next); !stop_.wait_until(next) && !over(); slot.deadline.due(next)) {
       const auto pause = slot.tick();
       next = std::max(next + pause, Clock::now());
     }
-    slot.turn.idle();
+    slot.deadline.idle();
   });
 }
 
@@ -229,9 +229,9 @@ void Executor::take(Slot& slot) noexcept {
     const std::lock_guard lock(slot.running);
     const ReactionScope scope(slot.reaction, kind_ == kListener);
     if (!slot.reader) return;
-    if (watchdog_hook_.notify) slot.turn.due(Clock::now());
+    if (watchdog_hook_.notify) slot.deadline.due(Clock::now());
     slot.take(*slot.reader);
-    slot.turn.idle();
+    slot.deadline.idle();
   });
 }
 

@@ -177,7 +177,7 @@ class Node {
     bool to_the_last = false;                        // what has arrived when the run ends still counts
     std::unique_ptr<AnyReader> reader;
     std::mutex running;
-    Deadline turn;  // of its thread, or of the reaction that runs
+    Deadline deadline;  // of its thread, or of the reaction that runs
     class Executor* executor = nullptr;
   };
 
@@ -190,7 +190,7 @@ class Node {
   std::string name_;
   std::optional<std::uint8_t> robot_id_;
   std::shared_ptr<Guard> interrupt_;
-  Deadline turn_;  // of the thread that waits for its topics
+  Deadline deadline_;  // of the thread that waits for its topics
   std::vector<std::unique_ptr<Slot>> slots_;
   std::vector<std::string> stored_;
   std::vector<Input> inputs_;

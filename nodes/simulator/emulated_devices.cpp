@@ -73,8 +73,8 @@ void EmulatedDevices::show(const sim::Sensors& sensors) {
 std::vector<hal::CoilPulse> EmulatedDevices::take_pulses() {
   if (!kicker_) return {};
   std::vector<hal::CoilPulse> pulses = kicker_->take_pulses();
-  for (const hal::CoilPulse& watchdog_hook : pulses)
-    logger_->info("pulse of {:.3f} ms at {} ns", watchdog_hook.length_us / 1000.0, watchdog_hook.t_ns);
+  for (const hal::CoilPulse& pulse : pulses)
+    logger_->info("pulse of {:.3f} ms at {} ns", pulse.length_us / 1000.0, pulse.t_ns);
   return pulses;
 }
 

@@ -275,8 +275,8 @@ void SimulatorNode::order(const msg::DeviceFire& fire, sim::Commands& out) {
 /// A pulse stands for its kick until the kick's receipt is looked for, which may come after it.
 void SimulatorNode::take_pulses(sim::Commands& out) {
   if (!receipts_) return;
-  for (const hal::CoilPulse& watchdog_hook : devices_->take_pulses())
-    out.fire = sim::Fire{watchdog_hook.t_ns - started_ns_, watchdog_hook.t_ns, watchdog_hook.power};
+  for (const hal::CoilPulse& pulse : devices_->take_pulses())
+    out.fire = sim::Fire{pulse.t_ns - started_ns_, pulse.t_ns, pulse.power};
 }
 
 std::int64_t SimulatorNode::kick_of_pulse(std::int64_t t_ns) {
