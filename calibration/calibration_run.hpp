@@ -8,7 +8,7 @@
 #include "calibration/drive_source.hpp"
 #include "calibration/robot_update.hpp"
 #include "config/settings.hpp"
-#include "kicking/fit/tracked_trials.hpp"
+#include "kicking/fit/tracked_fits.hpp"
 
 namespace trivela::calibration {
 

@@ -7,9 +7,7 @@
 
 #include "config/robot.hpp"
 #include "kicking/fit/deflection_fit.hpp"
-#include "kicking/fit/delay_fit.hpp"
-#include "kicking/fit/direction_fit.hpp"
-#include "kicking/fit/rotation_fit.hpp"
+#include "kicking/fit/scatter_fit.hpp"
 #include "kicking/fit/table_fit.hpp"
 #include "kicking/fit/transfer_fit.hpp"
 #include "kicking/learning/kicker_estimate.hpp"

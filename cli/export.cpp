@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/launch/progress_bar.hpp"
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/text/installation.hpp"

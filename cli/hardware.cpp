@@ -11,7 +11,7 @@
 #include "cli/hardware/device_locks.hpp"
 #include "cli/hardware/device_probes.hpp"
 #include "cli/hardware/tasks.hpp"
-#include "cli/launch/operator.hpp"
+#include "cli/launch/terminal.hpp"
 #include "cli/options/match_mode.hpp"
 #include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"

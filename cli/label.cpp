@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/options/match_mode.hpp"
 #include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "calibration/scanner_session.hpp"
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/lob_points.hpp"
 #include "cli/options/match_mode.hpp"
 #include "cli/options/number_checks.hpp"
@@ -19,8 +19,8 @@
 #include "hal/open.hpp"
 #include "kicking/lob/analyzer.hpp"
 #include "pages/lob/live_scene.hpp"
+#include "pages/lob/lob_page.hpp"
 #include "pages/lob/replay_scene.hpp"
-#include "pages/lob/scene.hpp"
 #include "pages/serve/page_server.hpp"
 
 namespace trivela::cli {

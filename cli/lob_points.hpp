@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kicking/lob/returns.hpp"
+#include "kicking/lob/analyzer.hpp"
 
 namespace trivela::cli {
 

@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/options/bus.hpp"
 #include "cli/team/valid_team.hpp"
 #include "cli/verbs.hpp"

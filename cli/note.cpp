@@ -7,7 +7,7 @@
 
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/sessions/session_notes.hpp"
+#include "evaluator/sessions/session_facts.hpp"
 #include "kicking/text/printable.hpp"
 #include "log/read/reader.hpp"
 #include "log/write/additions.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/launch/config_file.hpp"
+#include "cli/launch/child_process.hpp"
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/progress_bar.hpp"
 #include "cli/options/output.hpp"

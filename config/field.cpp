@@ -1,7 +1,7 @@
 #include "config/field.hpp"
 
 #include "config/text/toml_source.hpp"
-#include "kicking/policy/field_fields.hpp"
+#include "kicking/policy/match_rules.hpp"
 
 namespace trivela::config {
 

@@ -4,7 +4,6 @@
 
 #include "config/settings.hpp"
 #include "kicking/policy/match_rules.hpp"
-#include "kicking/policy/playing_field.hpp"
 
 /// Goal, field and rules stand in a file of their own (config/fields/NAME.toml: [field] and [rules] as a scenario has
 /// them), which the settings of nodes name by run.field_file and scenarios by field_file. Nodes that play a scenario

@@ -146,7 +146,7 @@ struct Simulator {
 };
 
 struct Recorder {
-  std::string log = "{team}-{robot}-{time}.db";  ///< a file, a folder or a pattern (robot/recording/log_name.hpp)
+  std::string log = "{team}-{robot}-{time}.db";  ///< a file, a folder or a pattern (robot/recording/log_family.hpp)
   std::uint32_t queue_capacity = 65536;
   double group_commit_s = 0.1;
 };

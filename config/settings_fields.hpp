@@ -3,7 +3,7 @@
 #include "config/settings.hpp"
 #include "config/text/field_types.hpp"
 #include "kicking/kick_id.hpp"
-#include "kicking/policy/field_fields.hpp"
+#include "kicking/policy/match_rules.hpp"
 
 /// The keys of default.toml, each named once.
 namespace trivela::config {

@@ -1,7 +1,6 @@
 // Plays the same possessions with two policies, in this process, and prints their kicks as the paper's Table 2 does.
 #include <fmt/core.h>
 
-#include "evaluator/render/simulated.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/table2/table2.hpp"
 #include "experiment/play/play_match.hpp"

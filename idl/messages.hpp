@@ -3,12 +3,20 @@
 
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 #include "idl/device.hpp"
 #include "idl/kick.hpp"
 #include "idl/robot.hpp"
 #include "idl/sim.hpp"
 #include "idl/team.hpp"
+
+namespace trivela::msg {
+
+/// What a message's number holds where there is none.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace trivela::msg
 
 namespace trivela::bus {
 

@@ -9,7 +9,6 @@
 #include "config/scenario/scenario.hpp"
 #include "config/text/installation.hpp"
 #include "experiment/run/arms.hpp"
-#include "experiment/run/calibrations.hpp"
 #include "experiment/run/experiment.hpp"
 #include "experiment/run/match_play.hpp"
 #include "kicking/outcome/outcome.hpp"

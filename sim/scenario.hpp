@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "kicking/policy/match_rules.hpp"
-#include "kicking/policy/playing_field.hpp"
 
 /// Every input of the simulated world: a named value with its unit and its source. "Assumption" marks a number that no
 /// publication gives; results depend on it and reports must say so. SI throughout; angles in rad.

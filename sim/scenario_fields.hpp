@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "kicking/policy/field_fields.hpp"
+#include "kicking/policy/match_rules.hpp"
 #include "kicking/range.hpp"
 #include "sim/scenario.hpp"
 

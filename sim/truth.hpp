@@ -8,7 +8,7 @@
 
 #include "kicking/geometry/frames.hpp"
 #include "kicking/optional_double.hpp"
-#include "kicking/outcome/blocking.hpp"
+#include "kicking/outcome/opponents.hpp"
 #include "kicking/outcome/outcome.hpp"
 
 namespace trivela::sim {

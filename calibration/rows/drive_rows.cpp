@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "calibration/rows/launch_track.hpp"
+#include "calibration/rows/recorded_drives.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::calibration {

@@ -6,8 +6,7 @@
 
 #include "calibration/rows/recorded_drives.hpp"
 #include "kicking/fit/deflection_fit.hpp"
-#include "kicking/fit/direction_fit.hpp"
-#include "kicking/fit/rotation_fit.hpp"
+#include "kicking/fit/scatter_fit.hpp"
 #include "kicking/fit/table_fit.hpp"
 #include "kicking/fit/transfer_fit.hpp"
 #include "kicking/model/robot_model.hpp"

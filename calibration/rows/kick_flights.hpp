@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kicking/learning/kick_flight.hpp"
+#include "kicking/learning/kicker_learner.hpp"
 
 namespace trivela::calibration {
 

@@ -8,7 +8,7 @@
 #include "cli/verbs.hpp"
 #include "evaluator/render/table.hpp"
 #include "evaluator/render/text_table.hpp"
-#include "kicking/alignment/deflection.hpp"
+#include "kicking/alignment/alignment.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::cli {

@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "calibration/rows/lobs_of_scans.hpp"
-#include "cli/launch/config_file.hpp"
+#include "cli/launch/child_process.hpp"
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
 #include "cli/launch/record_match.hpp"
 #include "cli/options/output.hpp"
 #include "config/field.hpp"
 #include "config/scenario/scenario.hpp"
-#include "experiment/calibration/drive_in_process.hpp"
+#include "experiment/calibration/simulated_calibration.hpp"
 #include "log/write/scan_log.hpp"
 
 namespace trivela::cli {

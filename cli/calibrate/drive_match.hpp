@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "calibration/drive_source.hpp"
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
 #include "config/settings.hpp"
 #include "sim/scenario.hpp"
 

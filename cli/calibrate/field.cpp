@@ -3,14 +3,13 @@
 #include <memory>
 #include <optional>
 
-#include "calibration/calibration_record.hpp"
 #include "calibration/drive_source.hpp"
-#include "calibration/field_steps.hpp"
+#include "calibration/field_calibration.hpp"
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/calibrate/robot_drives.hpp"
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/run.hpp"
-#include "cli/launch/operator.hpp"
+#include "cli/launch/terminal.hpp"
 #include "cli/options/match_mode.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"

@@ -14,7 +14,7 @@
 #include "config/scenario/scenario.hpp"
 #include "config/text/installation.hpp"
 #include "evaluator/render/json_values.hpp"
-#include "experiment/calibration/calibration_study.hpp"
+#include "experiment/calibration/calibration_check.hpp"
 #include "kicking/fit/least_squares.hpp"
 
 namespace trivela::cli {

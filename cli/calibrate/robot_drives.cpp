@@ -19,7 +19,6 @@
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/hardware/device_locks.hpp"
 #include "cli/launch/child_process.hpp"
-#include "cli/launch/config_file.hpp"
 #include "cli/launch/record_match.hpp"
 #include "cli/options/output.hpp"
 #include "emulators/refbox/emulated_box.hpp"

@@ -12,7 +12,6 @@
 #include "cli/verbs.hpp"
 #include "config/scenario/scenario.hpp"
 #include "config/text/installation.hpp"
-#include "experiment/calibration/drive_in_process.hpp"
 #include "experiment/calibration/simulated_calibration.hpp"
 #include "sim/kicker/kicker.hpp"
 

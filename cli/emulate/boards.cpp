@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cli/emulate/devices.hpp"
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/options/output.hpp"
 #include "emulators/cia402/emulated_drives.hpp"
 #include "emulators/ioboard/emulated_board.hpp"

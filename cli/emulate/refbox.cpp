@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "cli/emulate/devices.hpp"
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
 #include "emulators/refbox/box_keys.hpp"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cli/hardware/device_probes.hpp"
-#include "cli/launch/operator.hpp"
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
+#include "cli/launch/terminal.hpp"
 #include "config/robot.hpp"
 #include "config/settings.hpp"
 #include "hal/kicker.hpp"

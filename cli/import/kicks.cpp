@@ -12,7 +12,7 @@
 #include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "idl/none.hpp"
+#include "idl/messages.hpp"
 #include "kicking/kick_id.hpp"
 #include "kicking/text/printable.hpp"
 #include "log/schema/digest.hpp"

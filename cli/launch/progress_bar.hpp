@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/launch/terminal.hpp"
 
 namespace trivela::cli {

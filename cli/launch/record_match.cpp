@@ -8,8 +8,8 @@
 #include <optional>
 #include <random>
 
-#include "cli/launch/config_file.hpp"
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/child_process.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "log/read/reader.hpp"

@@ -5,8 +5,11 @@
 
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "cli/launch/signals.hpp"
 
 namespace trivela::cli {
 
@@ -45,5 +48,25 @@ inline std::string lines_cut_to(std::string_view text, std::size_t columns) {
   }
   return lines;
 }
+
+/// Whoever sits at the terminal: reads what this program says on standard output, types on standard input.
+class Operator {
+ public:
+  /// `signals` outlives it.
+  explicit Operator(SignalInbox& signals) : signals_(signals) {}
+
+  /// Standard input is a terminal: somebody can answer.
+  static bool is_there();
+
+  /// Says the question and waits for a line, which comes without its end. None: somebody asked to stop, or no line will
+  /// come any more. What was typed before the question does not count.
+  std::optional<std::string> ask(std::string_view question);
+
+  /// Asks for the word, which confirms what was said before; whatever else is typed does not.
+  bool confirms(std::string_view word);
+
+ private:
+  SignalInbox& signals_;
+};
 
 }  // namespace trivela::cli

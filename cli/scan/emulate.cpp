@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/options/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "calibration/scanner_session.hpp"
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/launch/terminal.hpp"
 #include "cli/options/output.hpp"
 #include "cli/scan/verb_parts.hpp"

@@ -8,10 +8,9 @@
 #include <thread>
 
 #include "cli/launch/progress_bar.hpp"
-#include "cli/launch/stop_request.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/options/number_checks.hpp"
-#include "cli/options/shard_option.hpp"
-#include "cli/options/world.hpp"
+#include "cli/options/play_options.hpp"
 #include "cli/study/study.hpp"
 #include "cli/verbs.hpp"
 #include "config/text/installation.hpp"

@@ -7,7 +7,7 @@
 
 #include "cli/launch/progress_bar.hpp"
 #include "cli/options/number_checks.hpp"
-#include "cli/options/shard_option.hpp"
+#include "cli/options/play_options.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/render/json_values.hpp"
 

@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "cli/launch/progress_bar.hpp"
-#include "cli/launch/stop_request.hpp"
+#include "cli/launch/signals.hpp"
 #include "cli/options/output.hpp"
-#include "cli/options/world.hpp"
+#include "cli/options/play_options.hpp"
 #include "cli/verbs.hpp"
 #include "config/text/installation.hpp"
 #include "experiment/run/arms.hpp"
-#include "experiment/run/calibrations.hpp"
 #include "experiment/study/study.hpp"
 #include "log/shards/study_results.hpp"
 

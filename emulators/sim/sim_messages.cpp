@@ -5,7 +5,7 @@
 #include <iterator>
 #include <limits>
 
-#include "idl/none.hpp"
+#include "idl/messages.hpp"
 
 namespace trivela::hal {
 namespace {

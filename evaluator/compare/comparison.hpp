@@ -6,7 +6,6 @@
 
 #include "evaluator/render/gate.hpp"
 #include "evaluator/stats/bayes.hpp"
-#include "evaluator/stats/counts/counts.hpp"
 #include "evaluator/stats/counts/exact.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "evaluator/compare/policy_comparison.hpp"
-#include "evaluator/render/simulated.hpp"
+#include "evaluator/render/text_table.hpp"
 #include "evaluator/stats/test_plan.hpp"
 #include "kicking/text/printable.hpp"
 

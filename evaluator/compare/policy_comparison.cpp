@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "evaluator/counting/pair_counts.hpp"
+#include "evaluator/counting/kick_counts.hpp"
 #include "evaluator/stats/test_plan.hpp"
 
 namespace trivela::evaluator {

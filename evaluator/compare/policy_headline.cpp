@@ -1,9 +1,11 @@
-#include "evaluator/compare/policy_comparison.hpp"
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/stats/counts/exact.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 #include "evaluator/stats/test_plan.hpp"
 
 namespace trivela::evaluator {
@@ -95,6 +97,108 @@ Headline headline_of(const PairResult& pair, double smallest_effect) {
   result.needed_for_smallest = needed(crude, ratio, smallest_effect).value_or(0.0);
   result.needed_for_seen = needed(crude, ratio, result.difference);
   return result;
+}
+
+namespace {
+
+std::string measure_of(const Headline& headline) {
+  return headline.of_opportunities ? "shots on target an opportunity" : "efficiency (on target of kicks)";
+}
+
+std::string cause_of(Design design, const std::string& by) {
+  switch (design) {
+    case Design::kBeforeAfter:
+      return "";
+    case Design::kAlternating:
+      return fmt::format("; the {} took turns within the matches", by);
+    case Design::kRandomised:
+      return fmt::format(", because of the {}: it was drawn at random", by);
+    case Design::kPaired:
+      return fmt::format(", because of the {}: both had the same opportunities", by);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string verdict_sentence(const PairResult& pair, const PolicyComparison& comparison) {
+  if (!pair.headline) return pair.why_none + ".";
+  const Headline& h = *pair.headline;
+  const std::string numbers = fmt::format("{}, 95 % {}", points(h.difference), points(h.ci));
+  const std::string measure =
+      measure_of(h) + (h.adjusted ? ", on the same mix of " + comparison.dataset.stratified_by : "");
+  const std::string smallest = fmt::format("{:.1f} points", 100.0 * comparison.smallest_effect);
+  const bool causal = pair.design != Design::kBeforeAfter;
+  const std::string cause = cause_of(pair.design, comparison.by);
+  const std::string& a = pair.older;
+  const std::string& b = pair.newer;
+  switch (h.verdict) {
+    case stats::Verdict::kBetter:
+    case stats::Verdict::kBetterMaybeTooSmall: {
+      const std::string small = h.verdict == stats::Verdict::kBetter
+                                    ? ""
+                                    : fmt::format(" Whether it is as much as {} cannot be said.", smallest);
+      if (!causal)
+        return fmt::format("{} differs from {} in {}: {}, the more for {}.{}", b, a, measure, numbers, b, small);
+      return fmt::format("{} is better than {} in {}: {}{}.{}", b, a, measure, numbers, cause, small);
+    }
+    case stats::Verdict::kWorse:
+      if (!causal) return fmt::format("{} differs from {} in {}: {}, the less for {}.", b, a, measure, numbers, b);
+      return fmt::format("{} is worse than {} in {}: {}{}.", b, a, measure, numbers, cause);
+    case stats::Verdict::kEquivalent:
+      return fmt::format("{} and {} are alike in {} within {}: {}.{}", b, a, measure, smallest, numbers,
+                         h.ci.lo > 0.0   ? " The difference is clear of zero, though too small to matter."
+                         : h.ci.hi < 0.0 ? " The difference is clear of zero, though too small to matter."
+                                         : "");
+    case stats::Verdict::kNotEnoughData:
+      return fmt::format("There is not enough data to tell {} from {} in {}: {}.", b, a, measure, numbers);
+  }
+  return "";
+}
+
+std::string design_sentence(const PairResult& pair, const PolicyComparison& comparison) {
+  std::string reason = comparison.dataset.design_reason;
+  if (pair.design != comparison.dataset.design) reason = "no opportunity that both had";
+  const std::string because = reason.empty() ? "" : " (" + reason + ")";
+  switch (pair.design) {
+    case Design::kBeforeAfter:
+      return fmt::format(
+          "before and after{}: whatever else differed between these matches, opponents, floors, calibration, differs "
+          "with the {}; the numbers say that they differ and not why",
+          because, comparison.by);
+    case Design::kAlternating:
+      return fmt::format("alternating{}: both met the same opponents and floors, the order in a match may still matter",
+                         because);
+    case Design::kRandomised:
+      return fmt::format("randomised{}: chance alone decided which possession was whose", because);
+    case Design::kPaired:
+      return fmt::format(
+          "paired{}: the same simulated opportunities for both, so that the difference is theirs, in this scenario",
+          because);
+  }
+  return "";
+}
+
+std::string needed_sentence(const PairResult& pair, const PolicyComparison& comparison) {
+  if (!pair.headline) return "";
+  const Headline& h = *pair.headline;
+  if (h.verdict != stats::Verdict::kNotEnoughData && h.verdict != stats::Verdict::kBetterMaybeTooSmall) return "";
+  const Effect& effect = h.of_opportunities ? *pair.per_opportunity : *pair.efficiency;
+  const char* const what = h.of_opportunities ? "opportunities" : "kicks";
+  const auto more = [&](double needed) {
+    const double least = static_cast<double>(std::min(effect.older.n, effect.newer.n));
+    const double missing = std::ceil(needed - least);
+    return missing > 0.0 ? fmt::format("about {:.0f} more {} of the one that has fewer ({:.0f} of each)", missing, what,
+                                       std::ceil(needed))
+                         : fmt::format("no more {} ({:.0f} of each)", what, std::ceil(needed));
+  };
+  std::string text = fmt::format("To find a difference of {:.1f} points with 80 % power: {}",
+                                 100.0 * comparison.smallest_effect, more(h.needed_for_smallest));
+  if (h.needed_for_seen && std::abs(h.difference) > comparison.smallest_effect) {
+    text += fmt::format("; if the {} points seen are the true ones: {}", fmt::format("{:+.1f}", 100.0 * h.difference),
+                        more(*h.needed_for_seen));
+  }
+  return text + ".";
 }
 
 }  // namespace trivela::evaluator

@@ -12,8 +12,8 @@
 #include "evaluator/metrics/compared_kicks.sql.hpp"
 #include "evaluator/metrics/first_decisions.sql.hpp"
 #include "evaluator/metrics/opportunities.sql.hpp"
+#include "evaluator/sessions/label_quality.hpp"
 #include "evaluator/sessions/log_sessions.hpp"
-#include "evaluator/sessions/no_goal.hpp"
 #include "evaluator/sessions/recording_gaps.hpp"
 
 namespace trivela::evaluator {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "evaluator/render/json_values.hpp"
-#include "evaluator/render/simulated.hpp"
+#include "evaluator/render/text_table.hpp"
 #include "evaluator/sessions/log_sessions.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/policy/policy.hpp"

@@ -88,7 +88,7 @@ ExportedRows export_csv(const log::Reader& reader, const ExportPlan& plan, const
 inline constexpr std::size_t kMostSessionsOfMcap = 64;
 
 /// Writes the log as MCAP in the order of time, by UTC as merging found it out: each row as a message of its own type
-/// (evaluator/mcap/row_message.hpp) on /robot_N/STREAM, or /log/STREAM where it is no robot's, beside it the scene
+/// (evaluator/mcap/messages.hpp) on /robot_N/STREAM, or /log/STREAM where it is no robot's, beside it the scene
 /// (evaluator/export/match_scene.hpp) and each session's configuration as metadata. Rows without an instant stand at
 /// their session's begin. Where two sessions have rows of one robot at one time, topics begin with /session_UUID. The
 /// same log and `library` (who writes) make the same bytes. Throws as export_csv(), BadExport

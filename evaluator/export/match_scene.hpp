@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "evaluator/mcap/cdr.hpp"
-#include "evaluator/sessions/session_setup.hpp"
+#include "evaluator/mcap/messages.hpp"
+#include "evaluator/sessions/session_facts.hpp"
 #include "log/read/stream_table.hpp"
 #include "log/schema/row.hpp"
 

@@ -11,8 +11,7 @@
 
 #include "evaluator/export/match_scene.hpp"
 #include "evaluator/mcap/mcap_writer.hpp"
-#include "evaluator/mcap/ros_types.hpp"
-#include "evaluator/mcap/row_message.hpp"
+#include "evaluator/mcap/messages.hpp"
 #include "log/schema/queries.hpp"
 
 namespace trivela::evaluator {

@@ -15,7 +15,7 @@
 #include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 #include "evaluator/stats/logistic_ridge.hpp"
-#include "kicking/outcome/p_inside.hpp"
+#include "kicking/outcome/outcome.hpp"
 #include "log/read/reader.hpp"
 
 namespace trivela::evaluator {

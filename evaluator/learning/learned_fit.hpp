@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 #include "kicking/policy/learned_model.hpp"
 
 namespace trivela::evaluator {

@@ -4,10 +4,9 @@
 #include <ctime>
 #include <set>
 
-#include "evaluator/page/figures/outcome_kind.hpp"
+#include "evaluator/page/figures/figure.hpp"
 #include "evaluator/page/html.hpp"
 #include "evaluator/page/report_page.hpp"
-#include "evaluator/render/simulated.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "kicking/geometry/time.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator {
 

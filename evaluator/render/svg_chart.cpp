@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "evaluator/render/simulated.hpp"
+#include "evaluator/render/text_table.hpp"
 
 namespace trivela::evaluator {
 namespace {

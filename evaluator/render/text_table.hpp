@@ -4,9 +4,16 @@
 #include <string_view>
 #include <vector>
 
-#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator {
+
+/// The first line of everything that was played in the simulation.
+inline constexpr const char* kSimulated =
+    "SIMULATED: the numbers describe the simulation's assumptions, not robots on a field.\n";
+
+/// The same in a figure.
+inline constexpr const char* kSimulatedFigure = "simulated: the simulation's assumptions, not robots on a field";
 
 /// Columns padded to their widest cell, two blanks between them: the first to the left, the others to the right.
 /// The first row is the head. Each line is indented by two blanks and ends with a newline.

@@ -10,8 +10,7 @@
 
 #include "evaluator/metrics/label_doubt.sql.hpp"
 #include "evaluator/metrics/labels_by_hand.sql.hpp"
-#include "evaluator/sessions/no_goal.hpp"
-#include "log/file/ball_turns.hpp"
+#include "log/file/session_tallies.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "evaluator/sessions/same_match.hpp"
-#include "evaluator/sessions/session_setup.hpp"
+#include "evaluator/sessions/session_facts.hpp"
 #include "log/read/reader.hpp"
 
 namespace trivela::evaluator {

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "evaluator/sessions/session_setup.hpp"
+#include "evaluator/sessions/session_facts.hpp"
 
 namespace trivela::evaluator {
 

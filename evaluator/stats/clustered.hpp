@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "evaluator/stats/counts/counts.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {

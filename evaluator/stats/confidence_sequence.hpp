@@ -1,6 +1,5 @@
 #pragma once
 
-#include "evaluator/stats/counts/counts.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <span>
 
-#include "evaluator/stats/counts/counts.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {

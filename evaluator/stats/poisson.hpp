@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 
-#include "evaluator/stats/counts/counts.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {

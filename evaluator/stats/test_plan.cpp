@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <numeric>
 
-#include "evaluator/stats/counts/counts.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {

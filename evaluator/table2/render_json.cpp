@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "evaluator/render/json_values.hpp"
-#include "evaluator/sessions/no_goal.hpp"
+#include "evaluator/sessions/label_quality.hpp"
 #include "evaluator/table2/report_parts.hpp"
 
 namespace trivela::evaluator {

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "evaluator/render/text_table.hpp"
-#include "evaluator/sessions/no_goal.hpp"
+#include "evaluator/sessions/label_quality.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <unordered_set>
 
-#include "evaluator/counting/pair_counts.hpp"
+#include "evaluator/counting/kick_counts.hpp"
 #include "evaluator/counting/policy_order.hpp"
 #include "evaluator/stats/clustered.hpp"
 

@@ -13,8 +13,7 @@
 #include "evaluator/sessions/kicker_learning.hpp"
 #include "evaluator/sessions/label_quality.hpp"
 #include "evaluator/sessions/recording_gaps.hpp"
-#include "evaluator/sessions/session_notes.hpp"
-#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/sessions/session_facts.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 #include "log/read/reader.hpp"
 

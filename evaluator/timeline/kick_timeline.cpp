@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "evaluator/metrics/listed_kicks.sql.hpp"
-#include "evaluator/sessions/session_setup.hpp"
+#include "evaluator/sessions/session_facts.hpp"
 #include "kicking/geometry/time.hpp"
-#include "kicking/outcome/blocking.hpp"
+#include "kicking/outcome/opponents.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -11,7 +11,6 @@
 
 #include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/render/json_values.hpp"
-#include "evaluator/render/simulated.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/stats/test_plan.hpp"
 

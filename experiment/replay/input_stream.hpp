@@ -16,7 +16,6 @@
 
 #include "idl/messages.hpp"
 #include "idl/meta.hpp"
-#include "idl/none.hpp"
 #include "log/read/reader.hpp"
 
 namespace trivela::experiment {

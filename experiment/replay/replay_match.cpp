@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiment/replay/robot_logic.hpp"
+#include "experiment/replay/recorded_cycles.hpp"
 #include "hal/wheels.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/optional_double.hpp"

@@ -8,7 +8,7 @@
 #include "config/scenario/scenario.hpp"
 #include "config/text/error.hpp"
 #include "config/text/installation.hpp"
-#include "evaluator/render/simulated.hpp"
+#include "evaluator/render/text_table.hpp"
 #include "experiment/run/arms.hpp"
 #include "experiment/run/match_play.hpp"
 #include "experiment/study/effects.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiment/play/play_match.hpp"
-#include "experiment/run/calibrations.hpp"
+#include "experiment/run/arms.hpp"
 #include "log/shards/shards.hpp"
 
 namespace trivela::experiment {

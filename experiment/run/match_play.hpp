@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "experiment/play/played.hpp"
+#include "experiment/play/play_match.hpp"
 #include "experiment/run/experiment.hpp"
 #include "log/write/experiment_log.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "evaluator/render/json_values.hpp"
 #include "evaluator/stats/clustered.hpp"
-#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 #include "log/shards/study_results.hpp"
 
 namespace trivela::experiment {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "config/scenario/scenario.hpp"
-#include "evaluator/render/simulated.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "experiment/run/arms.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiment/play/arm.hpp"
-#include "experiment/run/calibrations.hpp"
+#include "experiment/run/arms.hpp"
 #include "experiment/study/effects.hpp"
 #include "log/shards/shards.hpp"
 #include "log/shards/study_results.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluator/render/simulated.hpp"
 #include "evaluator/render/svg_chart.hpp"
+#include "evaluator/render/text_table.hpp"
 #include "experiment/study/study.hpp"
 
 namespace trivela::experiment {

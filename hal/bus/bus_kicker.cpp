@@ -9,7 +9,7 @@
 #include "bus/node.hpp"
 #include "hal/bus/bus_streams.hpp"
 #include "hal/open.hpp"
-#include "idl/none.hpp"
+#include "idl/messages.hpp"
 #include "kicking/optional_double.hpp"
 
 namespace trivela::hal {

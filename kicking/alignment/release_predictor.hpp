@@ -6,7 +6,7 @@
 #include "kicking/ballistics/moving_kick.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/angle.hpp"
-#include "kicking/geometry/turned_pose.hpp"
+#include "kicking/geometry/frames.hpp"
 
 namespace trivela::kicking {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "kicking/ballistics/crossing.hpp"
@@ -51,5 +52,47 @@ struct DirectedKick {
 /// points away from the line (a <= 0), the height is above its straight line or the speed would not be positive.
 std::optional<DirectedKick> directed_kick(const LineAhead& line, double height_m, const Elevation& exit_angle,
                                           double gravity_mps2 = kGravity_mps2);
+
+/// Velocity [m/s] that the robot gives to the ball at its point, seen along the line ball - target.
+struct Carry {
+  double along_mps = 0.0;
+  double right_mps = 0.0;
+};
+
+/// Kick that makes up for the carry in speed and direction at once.
+struct Aim {
+  double v_kick_mps = 0.0;
+  double t_flight_s = 0.0;
+  double left_mps = 0.0;    ///< of the kick's own velocity: away from the line, against the carry
+  double toward_mps = 0.0;  ///< and along it, > 0
+};
+
+/// Joint solution of direction and height, without drag, with T the time of flight and delta the angle to the left:
+/// V c sin(delta) = w_right, V c cos(delta) + w_along = d / T, V s T - g T^2 / 2 = h. Eliminating V and delta,
+/// (h + g T^2 / 2) cot(theta) = |(d - w_along T, w_right T)|, solved for T in a bracket.
+/// None if the point is out of the angle's reach or the kicker would have to point backwards.
+std::optional<Aim> aim_exact(const FlightPoint& point, const Elevation& exit_angle, const Carry& carry,
+                             double gravity_mps2 = kGravity_mps2);
+
+/// A point that the ball shall pass, kicked by a robot that drives straight ahead.
+struct WantedKick {
+  FlightPoint point{};
+  Elevation exit_angle{};
+  double v_front_mps = 0.0;  ///< forward speed of the robot
+  double transfer = 1.0;     ///< share of it that the ball takes over
+  double gravity_mps2 = kGravity_mps2;
+
+  double u_mps() const { return v_front_mps * transfer; }
+};
+
+/// The exit speeds for it, without drag; all none where no speed reaches the point.
+struct KickSpeeds {
+  OptionalDouble v0_mps;        ///< robot at rest, crossing_speed()
+  OptionalDouble vk_exact_mps;  ///< moving_kick_exact(); none also where the robot is too fast for it
+  OptionalDouble vk_paper_mps;  ///< moving_kick_paper()
+  bool descending = false;      ///< the flight from rest passes the point on its way down
+};
+
+KickSpeeds kick_speeds(const WantedKick& wanted);
 
 }  // namespace trivela::kicking

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "kicking/ballistics/crossing.hpp"
-#include "kicking/fit/tracked_transfer.hpp"
+#include "kicking/fit/tracked_fits.hpp"
 
 namespace trivela::kicking {
 namespace {

@@ -1,16 +1,70 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "kicking/lob/analyzer_config.hpp"
-#include "kicking/lob/ball_centre.hpp"
-#include "kicking/lob/cluster.hpp"
 #include "kicking/lob/lob_record.hpp"
 #include "kicking/lob/scan.hpp"
 
 namespace trivela::kicking::lob {
+
+/// One foreground return: its beam, when it was measured, and where, from the scanner: range (cos_a, sin_a), a being
+/// the elevation of the beam from +x over +z.
+struct BeamReturn {
+  int beam = 0;
+  std::int64_t t_ns = 0;
+  double range_m = 0.0;
+  double cos_a = 1.0;
+  double sin_a = 0.0;
+};
+
+/// Returns [first, last] of a scan that hang together.
+struct Cluster {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+/// Parts `returns`, in the order of their beams, where two neighbours are farther apart than gap_m plus the step of the
+/// beams at their range, or more than two beams between them have no foreground. Single returns are left out. `found`
+/// is overwritten.
+void find_clusters(std::span<const BeamReturn> returns, double step_rad, double gap_m, std::vector<Cluster>& found);
+
+/// A centre from the scanner [m].
+struct PlanePoint {
+  double x = 0.0;
+  double z = 0.0;
+};
+
+/// The paper's estimate (section 2.1, Figure 3): the middle M of the two outer returns, moved away from the scanner by
+/// one ball radius: M + r M / |M|. Literally taken it lies too far by up to r - r^2 / D, D being the distance: 7 cm at
+/// 4 m with a quarter of a degree.
+PlanePoint middle_of_limits(std::span<const BeamReturn> cluster, double radius_m);
+
+/// A circle of the ball's radius, and the sum of squared range errors that it leaves.
+struct CircleFit {
+  PlanePoint centre;
+  double cost_m2 = 0.0;
+};
+
+/// The circle of the ball's radius, least squares in range: minimises sum (range_i - m_i)^2 over the centre at D in
+/// direction u, among the centres whose ball crosses every beam of the cluster, |d_i| < asin(r / D):
+///   m_i = D cos d_i - sqrt(r^2 - D^2 sin^2 d_i),  d_i the angle of beam i from u.
+/// By golden section over the direction (what is feasible is a step of the beams wide), Gauss-Newton in D.
+CircleFit circle_of_known_radius(std::span<const BeamReturn> cluster, double radius_m);
+
+/// The cluster without a return at either end, or both, if the squared error falls by more than (3 cm)^2 for each:
+/// mixed pixels, half on the ball and half on what is behind. `fit`, that of the whole cluster, becomes that of what is
+/// left.
+std::span<const BeamReturn> without_mixed_pixels(std::span<const BeamReturn> cluster, CircleFit& fit, double radius_m);
+
+/// The ball's centre if the cluster may be a ball: the angle that it covers is that of a ball there,
+///   |(beams) step / (2 asin(r / D)) - 1| <= chord_tolerance.
+/// x and z are from the scanner; the time is that of the beam through the centre.
+std::optional<BallCentre> find_ball(std::span<const BeamReturn> cluster, double step_rad, const AnalyzerConfig& config);
 
 /// The things of one scan that look like a ball. Buffers are kept from scan to scan.
 class Candidates {

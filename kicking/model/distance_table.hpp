@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "kicking/ballistics/height_law.hpp"
+#include "kicking/ballistics/crossing.hpp"
 #include "kicking/model/robot_model.hpp"
 
 namespace trivela::kicking {

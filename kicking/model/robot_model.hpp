@@ -7,7 +7,6 @@
 #include "kicking/ballistics/moving_kick.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/angle.hpp"
-#include "kicking/model/angle_table.hpp"
 #include "kicking/model/power_table.hpp"
 
 namespace trivela::kicking {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kicking/outcome/p_inside.hpp"
+#include "kicking/outcome/outcome.hpp"
 
 namespace trivela::kicking {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kicking/outcome/p_inside.hpp"
+#include "kicking/outcome/outcome.hpp"
 
 namespace trivela::kicking {
 namespace {

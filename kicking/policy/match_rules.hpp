@@ -3,8 +3,27 @@
 #include <Eigen/Core>
 
 #include "kicking/geometry/frames.hpp"
+#include "kicking/geometry/goal.hpp"
+#include "kicking/range.hpp"
 
 namespace trivela::kicking {
+
+/// A field and its goals. The lines lie at +-goal_line_y_m and +-side_line_x_m in F. SI.
+struct PlayingField {
+  double goal_line_y_m = 9.0;        ///< 18 x 12 m field of the paper
+  double side_line_x_m = 6.0;        ///< 18 x 12 m field of the paper
+  double goal_half_width_m = 1.0;    ///< inner; CAMBADA release 1.0 cambada.conf.xml goal_width 2000 mm
+  double goal_height_m = 1.0;        ///< inner; CAMBADA release 1.0 cambada.conf.xml goal_height 1000 mm
+  double frame_thickness_m = 0.125;  ///< posts: CAMBADA release 1.0 cambada.conf.xml; bar: assumption, the same
+};
+
+/// The goal of a field.
+inline Goal goal_of(const PlayingField& field) {
+  return {.y_m = field.goal_line_y_m,
+          .half_width_m = field.goal_half_width_m,
+          .height_m = field.goal_height_m,
+          .post_width_m = field.frame_thickness_m};
+}
 
 /// What a match's rules allow a robot with the ball. By default nothing is forbidden, as on the paper's field; a
 /// scenario says where each of its rules comes from.
@@ -40,5 +59,26 @@ class DribbleLimit {
   Eigen::Vector2d taken_m_{0.0, 0.0};
   bool limited_ = false;
 };
+
+}  // namespace trivela::kicking
+
+/// The keys of a field and of a match's rules, each named once with the range it may take; found by ADL.
+namespace trivela::kicking {
+
+template <class V>
+void fields(V& v, MatchRules& r) {
+  v("opponents_half_only", r.opponents_half_only);
+  v("carry_limit_m", r.carry_limit_m, Range{0.0, 60.0});
+  v("set_piece_s", r.set_piece_s, Range{0.0, 60.0});
+}
+
+template <class V>
+void fields(V& v, PlayingField& f) {
+  v("goal_line_y_m", f.goal_line_y_m, Range{1.0, 30.0});
+  v("side_line_x_m", f.side_line_x_m, Range{1.0, 30.0});
+  v("goal_half_width_m", f.goal_half_width_m, Range{0.3, 5.0});
+  v("goal_height_m", f.goal_height_m, Range{0.3, 5.0});
+  v("frame_thickness_m", f.frame_thickness_m, Range{0.0, 0.5});
+}
 
 }  // namespace trivela::kicking

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kicking/alignment/deflection.hpp"
+#include "kicking/alignment/alignment.hpp"
 #include "kicking/policy/drive.hpp"
 #include "kicking/policy/policy_output.hpp"
 

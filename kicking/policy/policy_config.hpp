@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "kicking/alignment/alignment.hpp"
-#include "kicking/ballistics/height_law.hpp"
+#include "kicking/ballistics/crossing.hpp"
 #include "kicking/geometry/angle.hpp"
-#include "kicking/outcome/keeper.hpp"
+#include "kicking/outcome/opponents.hpp"
 #include "kicking/policy/drives/test_drive_config.hpp"
 #include "kicking/policy/learned_model.hpp"
 #include "kicking/policy/match_rules.hpp"

@@ -12,8 +12,7 @@
 #include "kicking/geometry/goal.hpp"
 #include "kicking/model/robot_model.hpp"
 #include "kicking/optional_double.hpp"
-#include "kicking/outcome/blocking.hpp"
-#include "kicking/outcome/keeper.hpp"
+#include "kicking/outcome/opponents.hpp"
 #include "kicking/policy/policy_config.hpp"
 
 namespace trivela::kicking {

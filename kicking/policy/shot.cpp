@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "kicking/ballistics/aim_exact.hpp"
-#include "kicking/ballistics/height_law.hpp"
+#include "kicking/ballistics/crossing.hpp"
 #include "kicking/ballistics/moving_kick.hpp"
 #include "kicking/policy/policy_output.hpp"
 

@@ -613,7 +613,7 @@ CREATE TABLE referee_tallies (             -- the referee's words counted when a
   PRIMARY KEY (session_id, robot_id, half)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE ball_turns (                  -- balls that came back after a kick (log/file/ball_turns.hpp), when a session ends
+CREATE TABLE ball_turns (                  -- balls that came back after a kick (log/file/session_tallies.hpp), when a session ends
   session_id INTEGER NOT NULL,             -- sessions.session_id
   turn INTEGER NOT NULL,                   -- from 0, in the order of time
   y_m REAL NOT NULL,                       -- how far forward it came, in F, m

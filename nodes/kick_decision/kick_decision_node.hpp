@@ -6,7 +6,7 @@
 
 #include "nodes/runtime/node_context.hpp"
 #include "robot/decision/decider.hpp"
-#include "robot/watch/standby_watch.hpp"
+#include "robot/watch/decision_watch.hpp"
 
 namespace trivela::nodes {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "evaluator/drift/drift_watch.hpp"
-#include "idl/none.hpp"
+#include "idl/messages.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/optional_double.hpp"
 #include "nodes/runtime/node_main.hpp"

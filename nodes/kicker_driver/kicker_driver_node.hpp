@@ -15,7 +15,7 @@
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/simulated_device_notice.hpp"
 #include "robot/driver/kicker_controller.hpp"
-#include "robot/watch/loop_watch.hpp"
+#include "robot/watch/decision_watch.hpp"
 
 namespace trivela::nodes {
 

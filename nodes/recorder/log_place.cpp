@@ -10,8 +10,7 @@
 
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/runtime/node_context.hpp"
-#include "robot/recording/log_name.hpp"
-#include "robot/recording/predecessor.hpp"
+#include "robot/recording/log_family.hpp"
 
 namespace trivela::nodes {
 namespace {

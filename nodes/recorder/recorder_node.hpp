@@ -19,11 +19,9 @@
 #include "log/read/clock_offsets.hpp"
 #include "log/write/writer.hpp"
 #include "nodes/runtime/node_context.hpp"
-#include "robot/watch/cycle_watch.hpp"
 #include "robot/watch/fire_watch.hpp"
 #include "robot/watch/instant_watch.hpp"
 #include "robot/watch/sequence_watch.hpp"
-#include "robot/watch/silence_lines.hpp"
 #include "robot/watch/silence_watch.hpp"
 
 #include <spdlog/logger.h>

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "nodes/runtime/node_context.hpp"
-#include "robot/watch/silence_lines.hpp"
 #include "robot/watch/silence_watch.hpp"
 
 namespace trivela::nodes {

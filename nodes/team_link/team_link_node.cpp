@@ -6,7 +6,7 @@
 
 #include "bus/executor.hpp"
 #include "nodes/runtime/node_main.hpp"
-#include "robot/team/alarms.hpp"
+#include "robot/team/team_summary.hpp"
 
 namespace trivela::nodes {
 namespace {

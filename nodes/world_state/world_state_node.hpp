@@ -4,8 +4,6 @@
 
 #include "nodes/runtime/node_context.hpp"
 #include "robot/belief/field_watch.hpp"
-#include "robot/belief/goal_watch.hpp"
-#include "robot/belief/reach_watch.hpp"
 #include "robot/belief/world_model.hpp"
 #include "robot/watch/referee_watch.hpp"
 

@@ -10,10 +10,9 @@
 
 #include "hal/range_finder.hpp"
 #include "log/write/scan_log.hpp"
-#include "pages/lob/frame.hpp"
+#include "pages/lob/lob_page.hpp"
 #include "pages/lob/lob_session.hpp"
-#include "pages/lob/scene.hpp"
-#include "pages/serve/broadcast.hpp"
+#include "pages/serve/page_server.hpp"
 
 namespace trivela::pages {
 

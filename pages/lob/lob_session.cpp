@@ -10,7 +10,7 @@
 
 #include "config/text/error.hpp"
 #include "config/text/parse_number.hpp"
-#include "pages/lob/lob_json.hpp"
+#include "pages/lob/lob_page.hpp"
 
 namespace trivela::pages {
 namespace {

@@ -8,10 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "pages/lob/frame.hpp"
+#include "pages/lob/lob_page.hpp"
 #include "pages/lob/lob_session.hpp"
-#include "pages/lob/scene.hpp"
-#include "pages/serve/broadcast.hpp"
+#include "pages/serve/page_server.hpp"
 
 namespace trivela::pages {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 #include "idl/messages.hpp"
 #include "kicking/optional_double.hpp"
 

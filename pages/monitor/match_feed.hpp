@@ -12,8 +12,7 @@
 #include "bus/domain/participant.hpp"
 #include "monitor/subscriber.hpp"
 #include "pages/monitor/match_scene.hpp"
-#include "pages/serve/broadcast.hpp"
-#include "pages/serve/page.hpp"
+#include "pages/serve/page_server.hpp"
 
 namespace trivela::pages {
 

@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <iterator>
 
-#include "idl/none.hpp"
+#include "idl/messages.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {

@@ -6,8 +6,6 @@
 #include "config/settings.hpp"
 #include "idl/messages.hpp"
 #include "robot/belief/ball_filter.hpp"
-#include "robot/belief/decay.hpp"
-#include "robot/belief/keeper_track.hpp"
 #include "robot/belief/opponent_tracks.hpp"
 #include "robot/belief/pose_filter.hpp"
 #include "robot/belief/possession_count.hpp"

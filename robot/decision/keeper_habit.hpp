@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "kicking/outcome/keeper.hpp"
+#include "kicking/outcome/opponents.hpp"
 
 namespace trivela::robot {
 

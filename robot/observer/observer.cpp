@@ -4,7 +4,7 @@
 #include <iterator>
 #include <tuple>
 
-#include "idl/none.hpp"
+#include "idl/messages.hpp"
 
 namespace trivela::robot {
 namespace {

@@ -3,14 +3,56 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "kicking/ballistics/flight.hpp"
 #include "kicking/optional_double.hpp"
-#include "robot/observer/camera_noise.hpp"
-#include "robot/observer/save_watch.hpp"
 #include "robot/observer/shot_judge.hpp"
 
 namespace trivela::robot {
+
+/// How far a sighting lies from the ball, learned from the flights seen so far.
+///
+/// Each sighting is held against the straight line between its two neighbours in time, sideways and forward: with the
+/// share w of the way between them it is off by sd sqrt(1 + (1 - w)^2 + w^2), whatever the ball's way, as long as that
+/// is nearly straight. The median of what they are off makes a kink or two harmless. The configured value counts as
+/// four sightings, what was learned as a hundred at most, so that a camera may change.
+class CameraNoise {
+ public:
+  explicit CameraNoise(double configured_sd_m);
+
+  /// Learns from one flight.
+  void learn(std::span<const kicking::Sighting> sightings);
+
+  double sd_m() const;
+  /// Sightings that the value rests on.
+  double weight() const { return weight_; }
+
+ private:
+  double configured_m2_;
+  double learned_m2_ = 0.0;  // sum of squares
+  double weight_ = 0.0;
+};
+
+/// How often a ball between posts and bar is saved, learned from the shots seen so far. With S the sum of p_saved and N
+/// that of p_on_target, and a mean of 0.005 before anything is seen, worth two shots:
+///
+///     ratio = (0.01 + S) / (2 + N)
+class SaveWatch {
+ public:
+  void learn(const ShotVerdict& verdict) {
+    if (!verdict.p_saved || !verdict.probabilities) return;
+    saved_ += *verdict.p_saved;
+    on_target_ += (*verdict.probabilities)[static_cast<std::size_t>(kicking::Outcome::kOnTarget)];
+  }
+  double ratio() const { return (kShots * ShotTrack{}.save_ratio + saved_) / (kShots + on_target_); }
+
+ private:
+  static constexpr double kShots = 2.0;
+  double saved_ = 0.0;
+  double on_target_ = 0.0;
+};
 
 /// A kick whose flight is over.
 struct TrackedShot {

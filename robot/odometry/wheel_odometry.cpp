@@ -5,7 +5,7 @@
 #include <iterator>
 #include <span>
 
-#include "idl/none.hpp"
+#include "idl/messages.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "idl/none.hpp"
+#include "idl/messages.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {

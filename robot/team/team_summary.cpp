@@ -7,8 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "idl/none.hpp"
-#include "robot/team/alarms.hpp"
+#include "idl/messages.hpp"
 
 namespace trivela::robot {
 namespace {

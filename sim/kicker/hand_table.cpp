@@ -11,7 +11,7 @@
 #include <utility>
 #include <variant>
 
-#include "kicking/ballistics/drag.hpp"
+#include "kicking/ballistics/flight.hpp"
 #include "kicking/random/draws.hpp"
 #include "sim/kicker/flight.hpp"
 #include "sim/kicker/kicker.hpp"

@@ -3,9 +3,9 @@
 #include <array>
 
 #include "kicking/ballistics/crossing.hpp"
-#include "kicking/ballistics/drag.hpp"
+#include "kicking/ballistics/flight.hpp"
 #include "kicking/ballistics/moving_kick.hpp"
-#include "kicking/outcome/p_inside.hpp"
+#include "kicking/outcome/outcome.hpp"
 #include "kicking/policy/policy.hpp"
 
 // Hot functions of a decision. `--benchmark_repetitions=9` prints the median.

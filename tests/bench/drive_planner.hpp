@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "kicking/outcome/blocking.hpp"
+#include "kicking/outcome/opponents.hpp"
 #include "kicking/policy/predictive/drive_plan.hpp"
 #include "kicking/policy/predictive/shot_chance.hpp"
 #include "sim/robot_body.hpp"

@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "evaluator/imports/play_statistics.hpp"
-#include "evaluator/imports/record_times.hpp"
 #include "evaluator/imports/team_log.hpp"
 #include "tests/evaluator/team_log_writing.hpp"
 

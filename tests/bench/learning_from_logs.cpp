@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 
-#include "cli/options/world.hpp"
+#include "cli/options/play_options.hpp"
 #include "config/learned_model.hpp"
 #include "config/text/installation.hpp"
 #include "evaluator/learning/learned_fit.hpp"
@@ -14,7 +14,7 @@
 #include "evaluator/render/text_table.hpp"
 #include "experiment/calibration/simulated_calibration.hpp"
 #include "experiment/play/play_match.hpp"
-#include "experiment/run/calibrations.hpp"
+#include "experiment/run/arms.hpp"
 #include "experiment/run/in_threads.hpp"
 #include "experiment/study/effects.hpp"
 

@@ -12,7 +12,7 @@
 #include "config/text/installation.hpp"
 #include "experiment/calibration/simulated_calibration.hpp"
 #include "experiment/play/play_match.hpp"
-#include "experiment/run/calibrations.hpp"
+#include "experiment/run/arms.hpp"
 #include "experiment/run/in_threads.hpp"
 #include "experiment/study/effects.hpp"
 #include "kicking/random/draws.hpp"

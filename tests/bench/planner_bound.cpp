@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <random>
 
-#include "cli/options/world.hpp"
+#include "cli/options/play_options.hpp"
 #include "config/scenario/scenario.hpp"
 #include "config/settings.hpp"
 #include "experiment/play/oracle.hpp"

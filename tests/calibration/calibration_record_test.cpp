@@ -1,5 +1,5 @@
 // What is kept of a calibration between two starts.
-#include "calibration/calibration_record.hpp"
+#include "calibration/field_calibration.hpp"
 
 #include <gmock/gmock.h>
 

@@ -6,9 +6,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "calibration/rows/launch_track.hpp"
 #include "calibration/rows/recorded_drives.hpp"
-#include "kicking/fit/delay_fit.hpp"
+#include "kicking/fit/scatter_fit.hpp"
 #include "kicking/geometry/time.hpp"
 #include "tests/calibration/drive_log.hpp"
 

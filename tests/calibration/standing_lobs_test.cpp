@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "calibration/field_steps.hpp"
+#include "calibration/field_calibration.hpp"
 #include "calibration/scanner_session.hpp"
 #include "config/text/error.hpp"
 #include "tests/support/folder.hpp"

@@ -6,8 +6,7 @@
 
 #include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
-#include "cli/options/shard_option.hpp"
-#include "cli/options/world.hpp"
+#include "cli/options/play_options.hpp"
 #include "cli/verbs.hpp"
 #include "tests/support/folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "cli/launch/progress_pipe.hpp"
+#include "cli/launch/match_run.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>

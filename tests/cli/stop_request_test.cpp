@@ -1,5 +1,5 @@
 // Ctrl-C while matches are computed: the first asks, the second ends the program.
-#include "cli/launch/stop_request.hpp"
+#include "cli/launch/signals.hpp"
 
 #include <gmock/gmock.h>
 

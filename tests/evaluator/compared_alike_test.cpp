@@ -3,7 +3,7 @@
 
 #include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/counting/log_kicks.hpp"
-#include "evaluator/sessions/session_setup.hpp"
+#include "evaluator/sessions/session_facts.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 
 namespace trivela::evaluator {

@@ -2,7 +2,7 @@
 
 #include <initializer_list>
 
-#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 

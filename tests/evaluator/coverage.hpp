@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 #include "tests/evaluator/random_numbers.hpp"
 
 namespace trivela::evaluator::stats {

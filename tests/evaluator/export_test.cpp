@@ -10,8 +10,7 @@
 #include <set>
 
 #include "evaluator/export/export_files.hpp"
-#include "evaluator/mcap/cdr.hpp"
-#include "evaluator/mcap/row_message.hpp"
+#include "evaluator/mcap/messages.hpp"
 #include "log/schema/schema.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 

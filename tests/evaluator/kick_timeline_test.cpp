@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "evaluator/sessions/session_setup.hpp"
+#include "evaluator/sessions/session_facts.hpp"
 #include "evaluator/timeline/replay.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "tests/evaluator/log_fixture.hpp"

@@ -12,7 +12,7 @@
 #include "evaluator/counting/named_kicks.hpp"
 #include "evaluator/learning/learned_fit.hpp"
 #include "evaluator/sessions/label_quality.hpp"
-#include "evaluator/sessions/session_notes.hpp"
+#include "evaluator/sessions/session_facts.hpp"
 #include "evaluator/table2/table2.hpp"
 #include "log/merge/merge.hpp"
 #include "log/write/additions.hpp"

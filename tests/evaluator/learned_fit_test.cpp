@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "kicking/outcome/p_inside.hpp"
+#include "kicking/outcome/outcome.hpp"
 
 namespace trivela::evaluator {
 namespace {

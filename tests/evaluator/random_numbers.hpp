@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator {
 

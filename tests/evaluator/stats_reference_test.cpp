@@ -7,7 +7,6 @@
 #include "evaluator/stats/bayes.hpp"
 #include "evaluator/stats/counts/exact.hpp"
 #include "evaluator/stats/counts/interval.hpp"
-#include "evaluator/stats/counts/label_doubt.hpp"
 #include "evaluator/stats/poisson.hpp"
 #include "evaluator/stats/test_plan.hpp"
 

@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "evaluator/imports/play_statistics.hpp"
-#include "evaluator/imports/record_times.hpp"
 #include "tests/evaluator/team_log_writing.hpp"
 
 namespace trivela::evaluator::imports {

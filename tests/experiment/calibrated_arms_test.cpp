@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "experiment/run/calibrations.hpp"
+#include "experiment/run/arms.hpp"
 #include "play_arms.hpp"
 
 namespace trivela::experiment {

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "evaluator/stats/counts/label_doubt.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 #include "experiment/play/play_match.hpp"
 #include "kicking/outcome/outcome.hpp"
 

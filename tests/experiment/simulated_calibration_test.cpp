@@ -6,7 +6,6 @@
 
 #include "config/scenario/scenario.hpp"
 #include "experiment/calibration/calibration_check.hpp"
-#include "experiment/calibration/calibration_study.hpp"
 
 namespace trivela::experiment {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "cli/launch/progress_bar.hpp"
-#include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/signals.hpp"
 #include "tests/faults/drivers_words.hpp"
 #include "tests/faults/forged_orders.hpp"
 #include "tests/faults/verdict.hpp"

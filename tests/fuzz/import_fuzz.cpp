@@ -7,7 +7,6 @@
 #include <string>
 
 #include "evaluator/imports/play_statistics.hpp"
-#include "evaluator/imports/record_times.hpp"
 #include "evaluator/imports/referee_log.hpp"
 #include "evaluator/imports/team_log.hpp"
 

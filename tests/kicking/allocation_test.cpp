@@ -4,7 +4,7 @@
 #include <new>
 #include <string>
 
-#include "kicking/outcome/p_inside.hpp"
+#include "kicking/outcome/outcome.hpp"
 #include "tests/kicking/play.hpp"
 
 namespace {

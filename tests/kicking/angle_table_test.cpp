@@ -1,5 +1,5 @@
 // Exit angles apart for each power, in the table and in the shot that is solved with them.
-#include "kicking/model/angle_table.hpp"
+#include "kicking/model/power_table.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // Opponents in a ball's way.
-#include "kicking/outcome/blocking.hpp"
+#include "kicking/outcome/opponents.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "kicking/alignment/release_predictor.hpp"
 #include "kicking/geometry/frames.hpp"
-#include "kicking/outcome/p_inside.hpp"
+#include "kicking/outcome/outcome.hpp"
 
 namespace trivela::kicking {
 namespace {

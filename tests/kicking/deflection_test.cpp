@@ -1,4 +1,4 @@
-#include "kicking/alignment/deflection.hpp"
+#include "kicking/alignment/alignment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kicking/fit/delay_fit.hpp"
+#include "kicking/fit/scatter_fit.hpp"
 
 #include <gmock/gmock.h>
 

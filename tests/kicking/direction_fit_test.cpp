@@ -1,4 +1,4 @@
-#include "kicking/fit/direction_fit.hpp"
+#include "kicking/fit/scatter_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kicking/ballistics/drag.hpp"
+#include "kicking/ballistics/flight.hpp"
 
 #include <gtest/gtest.h>
 

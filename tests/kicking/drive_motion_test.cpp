@@ -1,10 +1,8 @@
-#include "kicking/policy/predictive/drive_motion.hpp"
+#include "kicking/policy/predictive/drive_plan.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "kicking/policy/predictive/drive_plan.hpp"
 
 namespace trivela::kicking {
 namespace {

@@ -4,8 +4,6 @@
 
 #include <vector>
 
-#include "kicking/ballistics/drag.hpp"
-
 namespace trivela::kicking {
 namespace {
 

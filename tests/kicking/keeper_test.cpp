@@ -1,4 +1,4 @@
-#include "kicking/outcome/keeper.hpp"
+#include "kicking/outcome/opponents.hpp"
 
 #include <gtest/gtest.h>
 

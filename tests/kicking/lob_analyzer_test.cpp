@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "kicking/ballistics/crossing.hpp"
-#include "kicking/ballistics/drag.hpp"
+#include "kicking/ballistics/flight.hpp"
 #include "sim/laser/scan_builder.hpp"
 #include "tests/kicking/lob_scene.hpp"
 #include "tests/kicking/reference_laws.hpp"

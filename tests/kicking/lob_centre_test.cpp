@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kicking/geometry/angle.hpp"
-#include "kicking/lob/ball_centre.hpp"
+#include "kicking/lob/candidates.hpp"
 #include "kicking/random/draws.hpp"
 #include "tests/vector_rows.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "kicking/geometry/angle.hpp"
 #include "kicking/lob/background.hpp"
-#include "kicking/lob/cluster.hpp"
+#include "kicking/lob/candidates.hpp"
 
 namespace trivela::kicking::lob {
 namespace {

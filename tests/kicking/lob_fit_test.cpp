@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kicking/ballistics/crossing.hpp"
-#include "kicking/ballistics/drag.hpp"
+#include "kicking/ballistics/flight.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/lob/fit/effective_fit.hpp"

@@ -8,7 +8,6 @@
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/lob/analyzer.hpp"
-#include "kicking/lob/returns.hpp"
 #include "sim/laser/record.hpp"
 #include "tests/vector_rows.hpp"
 

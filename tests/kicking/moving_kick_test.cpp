@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "kicking/ballistics/aim_exact.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "tests/kicking/reference_laws.hpp"
 #include "tests/vector_rows.hpp"

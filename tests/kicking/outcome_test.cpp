@@ -6,7 +6,6 @@
 
 #include "kicking/ballistics/moving_kick.hpp"
 #include "kicking/geometry/angle.hpp"
-#include "kicking/outcome/p_inside.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::kicking {

@@ -4,10 +4,9 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "kicking/ballistics/aim_exact.hpp"
-#include "kicking/ballistics/bracketed_root.hpp"
 #include "kicking/ballistics/crossing.hpp"
-#include "kicking/ballistics/runge_kutta.hpp"
+#include "kicking/ballistics/moving_kick.hpp"
+#include "kicking/ballistics/numerics.hpp"
 
 namespace trivela::kicking {
 

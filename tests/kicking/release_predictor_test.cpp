@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kicking/ballistics/aim_exact.hpp"
+#include "kicking/ballistics/moving_kick.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "tests/kicking/reference_laws.hpp"
 #include "tests/vector_rows.hpp"

@@ -1,4 +1,4 @@
-#include "kicking/fit/rotation_fit.hpp"
+#include "kicking/fit/deflection_fit.hpp"
 
 #include <gmock/gmock.h>
 

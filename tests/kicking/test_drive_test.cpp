@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "kicking/alignment/deflection.hpp"
+#include "kicking/alignment/alignment.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/policy/shot.hpp"
 #include "tests/kicking/play.hpp"

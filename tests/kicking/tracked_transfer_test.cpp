@@ -3,8 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "kicking/fit/tracked_transfer.hpp"
-#include "kicking/fit/tracked_trials.hpp"
+#include "kicking/fit/tracked_fits.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::kicking {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "idl/none.hpp"
+#include "idl/messages.hpp"
 #include "tests/instants.hpp"
 #include "tests/nodes/node_fixture.hpp"
 

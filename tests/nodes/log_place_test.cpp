@@ -8,7 +8,7 @@
 #include "log/read/reader.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/runtime/node_context.hpp"
-#include "robot/recording/predecessor.hpp"
+#include "robot/recording/log_family.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/support/folder.hpp"
 

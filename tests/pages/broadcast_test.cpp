@@ -1,10 +1,10 @@
-#include "pages/serve/broadcast.hpp"
+#include "pages/serve/page_server.hpp"
 
 #include <gmock/gmock.h>
 
 #include <thread>
 
-#include "pages/lob/scene.hpp"
+#include "pages/lob/lob_page.hpp"
 
 namespace trivela::pages {
 namespace {

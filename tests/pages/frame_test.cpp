@@ -1,4 +1,4 @@
-#include "pages/lob/frame.hpp"
+#include "pages/lob/lob_page.hpp"
 
 #include <gmock/gmock.h>
 

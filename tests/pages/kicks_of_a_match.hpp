@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "idl/messages.hpp"
-#include "idl/none.hpp"
 
 namespace trivela::pages {
 

@@ -4,7 +4,7 @@
 
 #include "hal/open.hpp"
 #include "pages/lob/live_scene.hpp"
-#include "pages/lob/scene.hpp"
+#include "pages/lob/lob_page.hpp"
 #include "pages/serve/page_server.hpp"
 #include "tests/hal/faulty_scanner.hpp"
 #include "tests/pages/recorded_lobs.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kicking/geometry/angle.hpp"
-#include "pages/lob/lob_json.hpp"
+#include "pages/lob/lob_page.hpp"
 
 namespace trivela::pages {
 namespace {

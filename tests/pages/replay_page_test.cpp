@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "pages/lob/lob_page.hpp"
 #include "pages/lob/replay_scene.hpp"
-#include "pages/lob/scene.hpp"
 #include "pages/serve/page_server.hpp"
 #include "tests/pages/recorded_lobs.hpp"
 #include "tests/pages/stalled_viewer.hpp"

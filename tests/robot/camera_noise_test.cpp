@@ -1,4 +1,4 @@
-#include "robot/observer/camera_noise.hpp"
+#include "robot/observer/shot_tracker.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "robot/watch/cycle_watch.hpp"
+#include "robot/watch/instant_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "config/robot.hpp"
-#include "idl/none.hpp"
+#include "idl/messages.hpp"
 #include "kicking/kick_id.hpp"
 #include "tests/instants.hpp"
 

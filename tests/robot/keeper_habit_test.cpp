@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "kicking/random/draws.hpp"
-#include "robot/belief/keeper_track.hpp"
+#include "robot/belief/opponent_tracks.hpp"
 #include "sim/guard.hpp"
 
 namespace trivela::robot {

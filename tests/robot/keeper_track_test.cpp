@@ -1,4 +1,4 @@
-#include "robot/belief/keeper_track.hpp"
+#include "robot/belief/opponent_tracks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "robot/recording/log_name.hpp"
+#include "robot/recording/log_family.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "idl/none.hpp"
-#include "robot/team/alarms.hpp"
+#include "idl/messages.hpp"
 #include "robot/team/team_summary.hpp"
 #include "tests/instants.hpp"
 

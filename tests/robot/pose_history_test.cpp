@@ -1,4 +1,4 @@
-#include "robot/belief/pose_history.hpp"
+#include "robot/belief/pose_filter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "robot/belief/reach_watch.hpp"
+#include "robot/belief/field_watch.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

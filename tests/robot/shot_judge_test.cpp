@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "robot/observer/save_watch.hpp"
+#include "robot/observer/shot_tracker.hpp"
 
 namespace trivela::robot {
 namespace {

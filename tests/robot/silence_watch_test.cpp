@@ -4,7 +4,6 @@
 
 #include <random>
 
-#include "robot/watch/silence_lines.hpp"
 #include "tests/instants.hpp"
 
 namespace trivela::robot {

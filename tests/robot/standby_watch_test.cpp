@@ -1,4 +1,4 @@
-#include "robot/watch/standby_watch.hpp"
+#include "robot/watch/decision_watch.hpp"
 
 #include <gtest/gtest.h>
 

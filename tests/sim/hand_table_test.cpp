@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kicking/ballistics/drag.hpp"
+#include "kicking/ballistics/flight.hpp"
 #include "sim/kicker/flight.hpp"
 #include "sim/kicker/kicker.hpp"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "evaluator/page/figures/figure.hpp"
-#include "evaluator/page/figures/outcome_kind.hpp"
 #include "evaluator/page/html.hpp"
 #include "evaluator/page/report_page.hpp"
 

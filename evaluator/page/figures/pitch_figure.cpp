@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "evaluator/page/figures/figure.hpp"
-#include "evaluator/page/figures/outcome_kind.hpp"
 #include "evaluator/page/html.hpp"
 #include "evaluator/page/report_page.hpp"
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "evaluator/stats/counts/counts.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {

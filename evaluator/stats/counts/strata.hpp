@@ -3,7 +3,6 @@
 #include <optional>
 #include <span>
 
-#include "evaluator/stats/counts/counts.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {

@@ -1,6 +1,6 @@
 #include "kicking/lob/fit/flight_model.hpp"
 
-#include "kicking/ballistics/drag.hpp"
+#include "kicking/ballistics/flight.hpp"
 
 namespace trivela::kicking::lob {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kicking/geometry/time.hpp"
-#include "kicking/outcome/p_inside.hpp"
+#include "kicking/outcome/outcome.hpp"
 
 namespace trivela::kicking {
 namespace {
