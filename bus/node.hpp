@@ -9,10 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "bus/graph.hpp"
-#include "bus/last_received.hpp"
 #include "bus/mailbox.hpp"
-#include "bus/reaction_scope.hpp"
+#include "bus/reactions.hpp"
 #include "bus/reader.hpp"
 #include "bus/watchdog_hook.hpp"
 #include "bus/writer.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "hal/bus/sim_range_finder.hpp"
-#include "hal/gyro_wheels.hpp"
+#include "hal/gyro.hpp"
 #include "hal/line/line.hpp"
 #include "hal/mti/mti.hpp"
 #include "hal/scip/scip_range_finder.hpp"

@@ -6,7 +6,6 @@
 #include <exception>
 
 #include "security/certificates.hpp"
-#include "security/private_files.hpp"
 #include "security/rights.hpp"
 
 namespace trivela::security {

@@ -6,9 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "security/validity.hpp"
+#include "security/certificates.hpp"
 
 namespace trivela::security {
+
+/// Makes a folder 0700, and those above it; leaves one alone that is there.
+void make_private_folder(const std::filesystem::path& folder);
+
+/// Writes a file 0600, whole or not at all. Throws std::system_error naming it.
+void write_private_file(const std::filesystem::path& file, const std::string& text);
+
+/// Throws std::runtime_error naming a file that cannot be read.
+std::string read_text(const std::filesystem::path& file);
 
 /// A team's keys, a folder that its owner alone may read:
 ///

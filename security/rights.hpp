@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "security/validity.hpp"
+#include "security/certificates.hpp"
 
 namespace trivela::security {
 

@@ -11,7 +11,7 @@
 
 #include "kicking/geometry/time.hpp"
 #include "sim/kicker/kicker.hpp"
-#include "sim/laser/field_laser.hpp"
+#include "sim/laser/laser.hpp"
 #include "sim/opportunity.hpp"
 #include "sim/scenario_fields.hpp"
 #include "sim/sensor_suite.hpp"

@@ -5,7 +5,7 @@
 
 #include "kicking/random/draws.hpp"
 #include "sim/commands.hpp"
-#include "sim/kicker/kicker_device.hpp"
+#include "sim/kicker/kicker.hpp"
 #include "sim/opponent_body.hpp"
 #include "sim/opportunity.hpp"
 #include "sim/robot_body.hpp"

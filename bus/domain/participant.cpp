@@ -10,7 +10,6 @@
 #include <string>
 
 #include "bus/domain/cyclone.hpp"
-#include "bus/domain/own_sockets.hpp"
 #include "bus/domain/process.hpp"
 #include "bus/domain/reader_health.hpp"
 

@@ -12,7 +12,7 @@
 #include "cli/emulate/devices.hpp"
 #include "cli/launch/signals.hpp"
 #include "cli/options/output.hpp"
-#include "emulators/cia402/emulated_drives.hpp"
+#include "emulators/cia402/emulated_wheels.hpp"
 #include "emulators/ioboard/emulated_board.hpp"
 #include "emulators/mti/emulated_mti.hpp"
 #include "emulators/rekick/emulated_board.hpp"

@@ -9,8 +9,7 @@
 #include "cli/launch/signals.hpp"
 #include "cli/options/number_checks.hpp"
 #include "cli/options/output.hpp"
-#include "emulators/refbox/box_keys.hpp"
-#include "emulators/refbox/box_script.hpp"
+#include "emulators/refbox/box_act.hpp"
 #include "emulators/refbox/emulated_box.hpp"
 #include "hal/refbox/refbox_client.hpp"
 

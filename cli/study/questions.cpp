@@ -6,7 +6,7 @@
 
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/study/study.hpp"
-#include "config/scenario/worlds.hpp"
+#include "config/scenario/scenario.hpp"
 #include "experiment/study/studies.hpp"
 
 namespace trivela::cli {

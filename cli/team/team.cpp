@@ -13,7 +13,7 @@
 #include "cli/team/valid_team.hpp"
 #include "cli/verbs.hpp"
 #include "config/team/team_bus.hpp"
-#include "config/team/team_files.hpp"
+#include "config/team/team_settings.hpp"
 #include "config/text/installation.hpp"
 #include "evaluator/render/write_file.hpp"
 #include "log/schema/digest.hpp"

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "config/settings.hpp"
 #include "sim/scenario.hpp"
@@ -36,5 +37,17 @@ std::optional<std::string> field_difference(const sim::Scenario& scenario, const
 /// The same of what the settings do not merely have by default, or have by a field file: on_field_of() would overrule
 /// somebody's word.
 std::optional<std::string> field_contradiction(const sim::Scenario& scenario, const Settings& settings);
+
+/// A world of a study: another one than robots believe.
+struct NamedWorld {
+  std::string name;
+  std::string why;  ///< these values
+  sim::Scenario scenario{};
+};
+
+/// Reads the [[world]] tables of a file such as config/studies/robustness.toml: name, why, `scenario`, a file relative
+/// to this one, else `base`, and `set`, lines of TOML on top. Throws Error naming file, line, key and value; also for a
+/// file without worlds, for a world without a name and for two of one name.
+std::vector<NamedWorld> load_worlds(const std::filesystem::path& path, const sim::Scenario& base);
 
 }  // namespace trivela::config

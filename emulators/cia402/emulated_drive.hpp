@@ -8,10 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "hal/can/frame.hpp"
+#include "hal/can/can_line.hpp"
 #include "hal/cia402/canopen.hpp"
 #include "hal/cia402/drive_state.hpp"
-#include "hal/cia402/sdo.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::hal::cia402 {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "emulators/line/emulated_line.hpp"
 #include "emulators/line/emulator.hpp"
 #include "hal/ioboard/frame.hpp"
 

@@ -1,8 +1,11 @@
 #include "emulators/mti/emulated_mti.hpp"
 
-#include <algorithm>
+#include <fmt/core.h>
 
-#include "hal/mti/message.hpp"
+#include <algorithm>
+#include <variant>
+
+#include "hal/mti/mti.hpp"
 
 namespace trivela::hal::mti {
 namespace {
@@ -28,3 +31,20 @@ std::vector<std::string> EmulatedMti::tick(std::int64_t now_ns) {
 }
 
 }  // namespace trivela::hal::mti
+
+namespace trivela::hal {
+
+std::string EmulatedGyro::setting() const {
+  return fmt::format("hal.{}.port=\"{}\"", config::MtiDevice::kName, emulator_.address());
+}
+
+void EmulatedGyro::show(double gyro_radps) {
+  emulator_.with_board([&](mti::EmulatedMti& mti) { mti.rate_radps = sign_ * gyro_radps; });
+}
+
+std::unique_ptr<EmulatedGyro> emulated_gyro(const config::GyroDevice& host) {
+  const auto* const gyro = std::get_if<config::MtiDevice>(&host);
+  return gyro == nullptr ? nullptr : std::make_unique<EmulatedGyro>(*gyro);
+}
+
+}  // namespace trivela::hal

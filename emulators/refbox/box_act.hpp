@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -63,5 +64,31 @@ struct BoxStep {
   double at_s = 0.0;
   BoxAct act;
 };
+
+/// What a key of a box's prompt does: the letters of the old protocol (lower case: the right team, upper case: the left
+/// one), the space bar STOP, E END_PART, and faults under letters that it has left. None: nothing.
+std::optional<BoxAct> act_of_key(char key);
+
+/// The keys, for people.
+inline constexpr std::string_view kKeyHelp =
+    "s START, space or S STOP; left team in upper case, right team in lower case: K kick-off, F free kick, G goal "
+    "kick,\n"
+    "T throw-in, C corner, P penalty, A goal, D goal taken back, O repair, Y R B cards; N drop ball; 1 2 3 4 halves,\n"
+    "h half-time, e end of game, E end of part, z game over, L park, Z reset\n"
+    "faults: m next two objects in one write, l next object in two, i unknown command, j broken object, n object "
+    "without\n"
+    "a command, v overlong object, x close, X reset connections, w silent, q deaf, H heal; ? these lines, Ctrl-C "
+    "ends\n";
+
+/// A script for an emulated box: a line an act, "SECONDS COMMAND [left|right [ROBOT]]" or "SECONDS fault NAME", in the
+/// order of time; what follows a # is left out. `name` is the file's, for messages. Throws std::runtime_error with
+/// file, line and value for a line that is none, and for a time before the one above it.
+std::vector<BoxStep> read_box_script(std::string_view text, const std::string& name);
+
+/// The commands in the text log of a real box, from its first on: "ms,time(run time),state,code,text" with a letter of
+/// the old protocol, a command, or a command's JSON object as the code (RoboCup-MSL/RefBox, mslrb2015/Log.pde, and
+/// logs of 2016 to 2018). Other lines are left out. An object's team is the left one when it is the first team named.
+/// Throws std::runtime_error where there is no command at all.
+std::vector<BoxStep> read_box_log(std::string_view text, const std::string& name);
 
 }  // namespace trivela::hal::refbox

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "hal/line/descriptor.hpp"
-#include "hal/refbox/framing.hpp"
+#include "hal/refbox/words.hpp"
 
 namespace trivela::hal::refbox {
 namespace {

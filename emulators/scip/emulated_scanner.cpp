@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "hal/scip/codec.hpp"
+#include "hal/scip/reply.hpp"
 
 namespace trivela::hal::scip {
 namespace {

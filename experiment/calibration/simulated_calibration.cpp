@@ -15,7 +15,7 @@
 #include "kicking/lob/analyzer.hpp"
 #include "kicking/optional_double.hpp"
 #include "sim/kicker/kicker.hpp"
-#include "sim/laser/field_laser.hpp"
+#include "sim/laser/laser.hpp"
 
 namespace trivela::experiment {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "config/scenario/worlds.hpp"
+#include "config/scenario/scenario.hpp"
 #include "config/settings.hpp"
 #include "experiment/study/study.hpp"
 #include "sim/scenario.hpp"

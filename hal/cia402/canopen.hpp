@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "hal/can/frame.hpp"
+#include "hal/can/can_line.hpp"
 
 /// CANopen as far as a drive needs it: frames with 11-bit identifiers, numbers little endian. Source:
 /// dasys-lab/cnc-msldriver, msl_motion/include/driver/eposprotocol.h and configurations/Node_1.dcf; golden bytes by
@@ -56,5 +56,44 @@ std::string emergency_words(std::uint16_t code);
 /// `size` bytes of `value`, little endian, from `begin` on.
 void put(can::Frame& frame, std::size_t begin, std::uint32_t value, std::size_t size);
 std::uint32_t number_at(const can::Frame& frame, std::size_t begin, std::size_t size);
+
+/// An entry of a drive's object dictionary.
+struct Object {
+  std::uint16_t index = 0;
+  std::uint8_t sub = 0;
+  bool operator==(const Object&) const = default;
+};
+
+/// Expedited transfers, up to four bytes. `size` is 1, 2 or 4.
+can::Frame sdo_write(std::uint8_t node, Object object, std::uint32_t value, std::size_t size);
+can::Frame sdo_read(std::uint8_t node, Object object);
+
+/// What a drive answers.
+struct SdoReply {
+  enum class Kind { kWritten, kRead, kAborted };
+  Kind kind = Kind::kWritten;
+  Object object;
+  std::uint32_t value = 0;  ///< read: the value, aborted: why
+};
+/// None: it is no answer of the node, or one of more than four bytes.
+std::optional<SdoReply> sdo_reply_of(const can::Frame& frame, std::uint8_t node);
+
+/// What a drive is asked.
+struct SdoRequest {
+  Object object;
+  std::optional<std::uint32_t> write;  ///< none: it is to be read
+  std::size_t size = 0;                ///< of what is written
+};
+std::optional<SdoRequest> sdo_request_of(const can::Frame& frame, std::uint8_t node);
+
+can::Frame sdo_written(std::uint8_t node, Object object);
+can::Frame sdo_value(std::uint8_t node, Object object, std::uint32_t value, std::size_t size);
+can::Frame sdo_abort(std::uint8_t node, Object object, std::uint32_t code);
+
+inline constexpr std::uint32_t kNoSuchObject = 0x06020000, kNoSuchSub = 0x06090011, kWrongSize = 0x06070010,
+                               kNotInThisState = 0x08000022, kOutOfRange = 0x06090030;
+
+/// "no such object (06020000)".
+std::string abort_words(std::uint32_t code);
 
 }  // namespace trivela::hal::cia402

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "config/devices.hpp"
-#include "hal/can/frame.hpp"
+#include "hal/can/can_line.hpp"
 #include "hal/cia402/drive_state.hpp"
 #include "hal/cia402/start_up.hpp"
 

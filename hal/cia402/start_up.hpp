@@ -7,7 +7,6 @@
 
 #include "config/devices.hpp"
 #include "hal/cia402/canopen.hpp"
-#include "hal/cia402/sdo.hpp"
 #include "hal/wheels.hpp"
 
 namespace trivela::hal::cia402 {

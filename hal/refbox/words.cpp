@@ -1,12 +1,38 @@
 #include "hal/refbox/words.hpp"
 
 #include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
+
+#include <utility>
 
 #include "kicking/text/printable.hpp"
 
 namespace trivela::hal::refbox {
+
+void Framing::extend(std::string_view part) {
+  if (overlong_) return;
+  if (pending_.size() + part.size() > kLongestObject_B) {
+    overlong_ = true;
+    std::string{}.swap(pending_);
+    return;
+  }
+  pending_ += part;
+}
+
+std::vector<Framed> Framing::add(std::string_view bytes) {
+  std::vector<Framed> whole;
+  for (auto end = bytes.find('\0'); end != std::string_view::npos; end = bytes.find('\0')) {
+    extend(bytes.substr(0, end));
+    bytes.remove_prefix(end + 1);
+    std::string text = std::exchange(pending_, {});
+    const bool overlong = std::exchange(overlong_, false);
+    if (overlong || text.find_first_not_of(" \t\r\n") != std::string::npos)
+      whole.push_back({std::move(text), overlong});
+  }
+  extend(bytes);
+  return whole;
+}
+
 namespace {
 
 /// The beginning of what came, for a line of a log.

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "hal/can/frame.hpp"
+#include "hal/can/can_line.hpp"
 
 /// What the ReKick board says and is told over CAN, in frames with 29-bit identifiers: to it with its own number, from
 /// it with that number in bits 8 to 15. The first byte is the command. Source: dasys-lab/cnc-msldriver,

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "hal/scip/codec.hpp"
+#include "hal/scip/reply.hpp"
 
 namespace trivela::hal::scip {
 namespace {

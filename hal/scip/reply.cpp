@@ -1,10 +1,51 @@
 #include "hal/scip/reply.hpp"
 
 #include <algorithm>
-
-#include "hal/scip/codec.hpp"
+#include <array>
 
 namespace trivela::hal::scip {
+namespace {
+
+constexpr std::uint32_t kGroup = 0x3f;
+constexpr std::size_t kMostCharacters = 5;  // 30 bits
+
+}  // namespace
+
+std::string encode(std::uint32_t value, std::size_t characters) {
+  std::string text(characters, kFirstCharacter);
+  for (std::size_t i = characters; i-- > 0; value >>= 6U)
+    text[i] = static_cast<char>((value & kGroup) + kFirstCharacter);
+  return text;
+}
+
+std::optional<std::uint32_t> decode(std::string_view text) {
+  if (text.empty() || text.size() > kMostCharacters) return std::nullopt;
+  std::uint32_t value = 0;
+  for (const char character : text) {
+    if (character < kFirstCharacter || character > kLastCharacter) return std::nullopt;
+    value = value << 6U | static_cast<std::uint32_t>(character - kFirstCharacter);
+  }
+  return value;
+}
+
+std::optional<std::vector<std::uint32_t>> decode_all(std::string_view data, std::size_t characters) {
+  if (characters == 0 || data.size() % characters != 0) return std::nullopt;
+  std::vector<std::uint32_t> values;
+  values.reserve(data.size() / characters);
+  for (std::size_t at = 0; at < data.size(); at += characters) {
+    const auto value = decode(data.substr(at, characters));
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
+}
+
+char checksum(std::string_view text) {
+  std::uint32_t sum = 0;
+  for (const char character : text) sum += static_cast<unsigned char>(character);
+  return static_cast<char>((sum & kGroup) + kFirstCharacter);
+}
+
 namespace {
 
 // Takes the next line off `text`; none when there is no more.
@@ -126,6 +167,60 @@ void ReplyParser::skip() {
   skipping_ = true;
   text_.clear();
   line_start_ = 0;
+}
+
+namespace {
+
+struct Meaning {
+  std::string_view status;
+  std::string_view text;
+};
+
+constexpr std::array kOfAnyRequest{
+    Meaning{"00", "done"},
+    Meaning{"0A", "the scanner cannot make an answer"},
+    Meaning{"0B", "the scanner's buffer is full, or the request was repeated"},
+    Meaning{"0C", "the request has too few parameters"},
+    Meaning{"0D", "the scanner does not know the request"},
+    Meaning{"0E", "the scanner does not know the request"},
+    Meaning{"0F", "the request has too few parameters"},
+    Meaning{"0G", "the request's text has more than 16 characters"},
+    Meaning{"0H", "the request's text has characters that are not allowed"},
+    Meaning{"0I", "the scanner waits for new firmware"},
+};
+constexpr std::array kOfMeasuring{
+    Meaning{"01", "the start step is no number"},         Meaning{"02", "the end step is no number"},
+    Meaning{"03", "the cluster count is no number"},      Meaning{"04", "the end step is out of range"},
+    Meaning{"05", "the end step is before the start"},    Meaning{"06", "the scan interval is no number"},
+    Meaning{"07", "the number of scans is no number"},    Meaning{"10", "the laser is off"},
+    Meaning{"98", "the laser works again after a check"}, Meaning{"99", "a scan"},
+};
+constexpr std::array kOfLaser{
+    Meaning{"01", "the laser does not work"},
+    Meaning{"02", "the laser was on already"},
+};
+
+template <class Table>
+std::string_view find(const Table& table, std::string_view status) {
+  for (const Meaning& row : table) {
+    if (row.status == status) return row.text;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string meaning(std::string_view request, std::string_view status) {
+  std::string_view text;
+  if (request.starts_with("MD") || request.starts_with("GD")) {
+    text = find(kOfMeasuring, status);
+    if (text.empty() && status >= "21" && status <= "49") text = "the scanner stopped to look into a fault";
+    if (text.empty() && status >= "50" && status <= "97") text = "the scanner has a fault in its hardware";
+  } else if (request.starts_with("BM")) {
+    text = find(kOfLaser, status);
+  }
+  if (text.empty()) text = find(kOfAnyRequest, status);
+  return text.empty() ? "status " + std::string{status} : std::string{text};
 }
 
 }  // namespace trivela::hal::scip

@@ -21,7 +21,7 @@
 #include <thread>
 
 #include "bus/census.hpp"
-#include "bus/domain/own_sockets.hpp"
+#include "bus/domain/process.hpp"
 
 namespace trivela::monitor::network {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bus/domain/domain.hpp"
-#include "monitor/network/readings.hpp"
+#include "monitor/network/findings.hpp"
 
 namespace trivela::monitor::network {
 

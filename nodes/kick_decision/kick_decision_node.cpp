@@ -8,9 +8,9 @@
 
 #include "kicking/geometry/time.hpp"
 #include "kicking/kick_id.hpp"
+#include "nodes/runtime/lockstep.hpp"
 #include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
-#include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
 namespace {

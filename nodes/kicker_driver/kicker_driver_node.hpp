@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/writer_watch.hpp"
+#include "bus/writer.hpp"
 #include "hal/kicker.hpp"
 #include "nodes/kicker_driver/pending_kick.hpp"
 #include "nodes/runtime/node_context.hpp"

@@ -5,9 +5,9 @@
 
 #include "hal/open.hpp"
 #include "kicking/geometry/time.hpp"
+#include "nodes/runtime/lockstep.hpp"
 #include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
-#include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
 OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wheels)

@@ -13,9 +13,9 @@
 #include "kicking/geometry/time.hpp"
 #include "log/write/additions.hpp"
 #include "nodes/recorder/log_place.hpp"
+#include "nodes/runtime/lockstep.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/node_main.hpp"
-#include "nodes/runtime/step_done.hpp"
 #include "robot/recording/message_row.hpp"
 
 namespace trivela::nodes {

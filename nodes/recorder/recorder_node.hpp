@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bus/reader.hpp"
-#include "bus/writer_watch.hpp"
+#include "bus/writer.hpp"
 #include "log/read/clock_offsets.hpp"
 #include "log/write/writer.hpp"
 #include "nodes/runtime/node_context.hpp"

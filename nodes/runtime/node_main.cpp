@@ -11,18 +11,17 @@
 #include <filesystem>
 #include <vector>
 
+#include "bus/domain/cyclone.hpp"
 #include "bus/domain/domain.hpp"
-#include "bus/domain/library_log.hpp"
 #include "bus/domain/process.hpp"
 #include "bus/domain/reader_health.hpp"
 #include "bus/executor.hpp"
 #include "config/text/installation.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"
-#include "nodes/runtime/error_stream.hpp"
 #include "nodes/runtime/flood_watch.hpp"
 #include "nodes/runtime/input_watch.hpp"
-#include "nodes/runtime/limited_sink.hpp"
+#include "nodes/runtime/log_sinks.hpp"
 #include "nodes/runtime/node_flags.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 #include "nodes/runtime/supervisor.hpp"

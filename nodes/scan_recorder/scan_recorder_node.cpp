@@ -9,9 +9,9 @@
 #include "config/text/installation.hpp"
 #include "hal/open.hpp"
 #include "log/file/new_file.hpp"
+#include "nodes/runtime/lockstep.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/node_main.hpp"
-#include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
 namespace {

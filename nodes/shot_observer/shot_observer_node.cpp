@@ -6,9 +6,9 @@
 
 #include "config/kicker_state.hpp"
 #include "config/text/error.hpp"
+#include "nodes/runtime/lockstep.hpp"
 #include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
-#include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
 ShotObserverNode::ShotObserverNode(NodeContext& context)

@@ -11,7 +11,7 @@
 #include "config/settings.hpp"
 #include "emulators/board/emulated_kicker.hpp"
 #include "emulators/cia402/emulated_wheels.hpp"
-#include "emulators/mti/emulated_gyro.hpp"
+#include "emulators/mti/emulated_mti.hpp"
 #include "emulators/refbox/emulated_box.hpp"
 #include "emulators/refbox/referee_output.hpp"
 #include "sim/sensors.hpp"

@@ -15,7 +15,7 @@
 #include "kicking/geometry/time.hpp"
 #include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
-#include "sim/laser/field_laser.hpp"
+#include "sim/laser/laser.hpp"
 
 namespace trivela::nodes {
 namespace {

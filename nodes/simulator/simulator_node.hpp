@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "kicking/geometry/time.hpp"
-#include "nodes/runtime/lockstep_barrier.hpp"
+#include "nodes/runtime/lockstep.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/progress_line.hpp"
 #include "nodes/simulator/emulated_devices.hpp"

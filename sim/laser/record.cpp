@@ -7,7 +7,7 @@
 #include "kicking/geometry/time.hpp"
 #include "kicking/random/draws.hpp"
 #include "sim/kicker/flight.hpp"
-#include "sim/laser/scan_builder.hpp"
+#include "sim/laser/laser.hpp"
 
 namespace trivela::sim {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kicking/lob/scan.hpp"
-#include "sim/laser/laser_model.hpp"
+#include "sim/laser/laser.hpp"
 #include "sim/scenario.hpp"
 
 namespace trivela::sim {

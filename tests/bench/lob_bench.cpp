@@ -5,12 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "hal/scip/codec.hpp"
 #include "hal/scip/messages.hpp"
 #include "hal/scip/reply.hpp"
 #include "kicking/lob/analyzer.hpp"
+#include "sim/laser/laser.hpp"
 #include "sim/laser/record.hpp"
-#include "sim/laser/scan_builder.hpp"
 
 // The lob analyzer on synthetic scans of 1081 beams. `--benchmark_repetitions=9` prints the median.
 namespace {

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "emulators/cia402/emulated_drives.hpp"
+#include "emulators/cia402/emulated_wheels.hpp"
 #include "hal/can/can_line.hpp"
 #include "hal/cia402/cia402_wheels.hpp"
 

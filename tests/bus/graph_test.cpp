@@ -1,4 +1,4 @@
-#include "bus/graph.hpp"
+#include "bus/reactions.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "bus/domain/own_sockets.hpp"
+#include "bus/domain/process.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "bus/writer_watch.hpp"
+#include "bus/writer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,6 @@
 #include "config/settings.hpp"
 #include "config/team/team.hpp"
 #include "config/team/team_bus.hpp"
-#include "config/team/team_files.hpp"
 #include "config/team/team_settings.hpp"
 #include "tests/support/folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "config/team/team_files.hpp"
+#include "config/team/team_settings.hpp"
 
 #include <gmock/gmock.h>
 #include <stdlib.h>
@@ -10,7 +10,6 @@
 
 #include "config/team/team.hpp"
 #include "config/team/team_bus.hpp"
-#include "config/team/team_settings.hpp"
 #include "config/text/error.hpp"
 #include "tests/support/folder.hpp"
 

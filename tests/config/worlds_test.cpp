@@ -1,10 +1,9 @@
-#include "config/scenario/worlds.hpp"
+#include "config/scenario/scenario.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 
-#include "config/scenario/scenario.hpp"
 #include "config/text/error.hpp"
 #include "config/text/installation.hpp"
 #include "tests/support/folder.hpp"

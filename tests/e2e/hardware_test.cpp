@@ -14,7 +14,7 @@
 #include "bus/domain/domain.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
-#include "emulators/cia402/emulated_drives.hpp"
+#include "emulators/cia402/emulated_wheels.hpp"
 #include "emulators/ioboard/emulated_board.hpp"
 #include "emulators/mti/emulated_mti.hpp"
 #include "emulators/refbox/emulated_box.hpp"

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "bus/writer.hpp"
-#include "emulators/cia402/emulated_drives.hpp"
-#include "hal/can/frame.hpp"
+#include "emulators/cia402/emulated_wheels.hpp"
+#include "hal/can/can_line.hpp"
 #include "idl/messages.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/faults/device_rounds.hpp"

@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-#include "bus/domain/library_log.hpp"
+#include "bus/domain/cyclone.hpp"
 #include "bus/renewal.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"

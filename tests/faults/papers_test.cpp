@@ -9,7 +9,7 @@
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
 #include "security/certificates.hpp"
-#include "security/private_files.hpp"
+#include "security/key_folder.hpp"
 #include "security/rights.hpp"
 #include "tests/faults/attackers.hpp"
 

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <fstream>
 
-#include "config/team/team_files.hpp"
 #include "config/team/team_settings.hpp"
 #include "tests/e2e/program.hpp"
 

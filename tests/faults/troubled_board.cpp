@@ -5,7 +5,7 @@
 
 #include "emulators/ioboard/emulated_board.hpp"
 #include "emulators/rekick/emulated_board.hpp"
-#include "hal/can/frame.hpp"
+#include "hal/can/can_line.hpp"
 
 namespace trivela::faults {
 namespace {

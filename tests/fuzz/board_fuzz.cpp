@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "hal/can/frame.hpp"
+#include "hal/can/can_line.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "hal/rekick/rekick.hpp"
 #include "tests/fuzz/script.hpp"

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "emulators/refbox/box_script.hpp"
+#include "emulators/refbox/box_act.hpp"
 #include "emulators/refbox/emulated_box.hpp"
 #include "hal/refbox/words.hpp"
 #include "tests/fuzz/script.hpp"

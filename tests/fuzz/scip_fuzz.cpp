@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "hal/scip/codec.hpp"
 #include "hal/scip/messages.hpp"
 #include "hal/scip/reply.hpp"
 #include "hal/scip/scan_intake.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "hal/cia402/drives.hpp"
+#include "hal/cia402/cia402_wheels.hpp"
 #include "hal/mti/mti.hpp"
 #include "tests/fuzz/script.hpp"
 #include "tests/hal/scripted_line.hpp"

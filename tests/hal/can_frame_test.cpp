@@ -1,12 +1,10 @@
-#include "hal/can/frame.hpp"
+#include "hal/can/can_line.hpp"
 
 #include <gtest/gtest.h>
 #include <linux/can.h>
 #include <linux/can/error.h>
 
 #include <cstring>
-
-#include "hal/can/can_line.hpp"
 
 namespace trivela::hal::can {
 namespace {

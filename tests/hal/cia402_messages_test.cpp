@@ -3,7 +3,6 @@
 
 #include "hal/cia402/canopen.hpp"
 #include "hal/cia402/drive_state.hpp"
-#include "hal/cia402/sdo.hpp"
 #include "hal/cia402/start_up.hpp"
 
 namespace trivela::hal::cia402 {

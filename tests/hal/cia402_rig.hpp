@@ -6,7 +6,7 @@
 #include <memory>
 #include <numbers>
 
-#include "emulators/cia402/emulated_drives.hpp"
+#include "emulators/cia402/emulated_wheels.hpp"
 #include "hal/can/can_line.hpp"
 #include "hal/cia402/cia402_wheels.hpp"
 #include "tests/hal/board_on_a_line.hpp"

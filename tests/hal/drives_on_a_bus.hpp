@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "emulators/cia402/emulated_drives.hpp"
-#include "hal/cia402/drives.hpp"
+#include "emulators/cia402/emulated_wheels.hpp"
+#include "hal/cia402/cia402_wheels.hpp"
 
 namespace trivela::tests {
 

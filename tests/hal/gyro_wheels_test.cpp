@@ -3,9 +3,8 @@
 
 #include <thread>
 
-#include "emulators/mti/emulated_gyro.hpp"
 #include "emulators/mti/emulated_mti.hpp"
-#include "hal/gyro_wheels.hpp"
+#include "hal/gyro.hpp"
 #include "hal/mti/mti.hpp"
 #include "tests/hal/board_on_a_line.hpp"
 

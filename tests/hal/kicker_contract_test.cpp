@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "hal/bus/bus_kicker.hpp"
+#include "hal/bus/bridge.hpp"
 #include "tests/hal/board_on_a_line.hpp"
 #include "tests/hal/bus_world.hpp"
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "hal/mti/message.hpp"
 #include "hal/mti/mti.hpp"
 #include "tests/hal/scripted_line.hpp"
 

@@ -1,4 +1,4 @@
-#include "hal/bus/bus_streams.hpp"
+#include "hal/bus/bridge.hpp"
 
 #include <gtest/gtest.h>
 

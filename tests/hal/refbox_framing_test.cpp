@@ -1,4 +1,4 @@
-#include "hal/refbox/framing.hpp"
+#include "hal/refbox/words.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

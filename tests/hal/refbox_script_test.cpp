@@ -1,9 +1,7 @@
-#include "emulators/refbox/box_script.hpp"
+#include "emulators/refbox/box_act.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "emulators/refbox/box_keys.hpp"
 
 namespace trivela::hal::refbox {
 namespace {

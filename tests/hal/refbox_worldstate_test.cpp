@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "hal/refbox/framing.hpp"
+#include "hal/refbox/words.hpp"
 #include "tests/hal/json_schema.hpp"
 
 namespace trivela::hal::refbox {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "hal/scip/scan_clock.hpp"
+#include "hal/scip/scan_intake.hpp"
 
 namespace trivela::hal::scip {
 namespace {

@@ -1,4 +1,4 @@
-#include "hal/scip/codec.hpp"
+#include "hal/scip/reply.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "hal/scip/codec.hpp"
+#include "hal/scip/reply.hpp"
 #include "tests/hal/scip_text.hpp"
 
 namespace trivela::hal::scip {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/scip/codec.hpp"
+#include "hal/scip/reply.hpp"
 #include "tests/hal/scip_text.hpp"
 
 namespace trivela::hal::scip {

@@ -4,7 +4,6 @@
 
 #include <numbers>
 
-#include "hal/scip/codec.hpp"
 #include "hal/scip/reply.hpp"
 #include "tests/hal/scip_text.hpp"
 

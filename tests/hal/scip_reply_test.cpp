@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/scip/codec.hpp"
 #include "hal/scip/messages.hpp"
 #include "tests/hal/scip_text.hpp"
 #include "tests/vector_rows.hpp"

@@ -1,4 +1,4 @@
-#include "hal/board/shot_queue.hpp"
+#include "hal/board/board_kicker.hpp"
 
 #include <gtest/gtest.h>
 

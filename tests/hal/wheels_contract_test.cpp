@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "hal/board/board_kicker.hpp"
-#include "hal/bus/bus_kicker.hpp"
-#include "hal/bus/bus_wheels.hpp"
+#include "hal/bus/bridge.hpp"
 #include "hal/bus/sim_range_finder.hpp"
-#include "hal/gyro_wheels.hpp"
+#include "hal/gyro.hpp"
 #include "hal/open.hpp"
 #include "tests/hal/bus_world.hpp"
 #include "tests/hal/cia402_rig.hpp"

@@ -9,7 +9,7 @@
 
 #include "kicking/ballistics/crossing.hpp"
 #include "kicking/ballistics/flight.hpp"
-#include "sim/laser/scan_builder.hpp"
+#include "sim/laser/laser.hpp"
 #include "tests/kicking/lob_scene.hpp"
 #include "tests/kicking/reference_laws.hpp"
 

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "kicking/geometry/time.hpp"
-#include "sim/laser/scan_builder.hpp"
+#include "sim/laser/laser.hpp"
 #include "tests/kicking/lob_scene.hpp"
 
 namespace trivela::kicking::lob {

@@ -1,4 +1,4 @@
-#include "monitor/processes.hpp"
+#include "monitor/bus_picture.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>

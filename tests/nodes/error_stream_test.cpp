@@ -1,4 +1,4 @@
-#include "nodes/runtime/error_stream.hpp"
+#include "nodes/runtime/log_sinks.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "nodes/runtime/limited_sink.hpp"
+#include "nodes/runtime/log_sinks.hpp"
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>

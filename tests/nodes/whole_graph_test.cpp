@@ -3,7 +3,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "bus/graph.hpp"
+#include "bus/reactions.hpp"
 #include "log/read/reader.hpp"
 #include "nodes/kick_decision/kick_decision_node.hpp"
 #include "nodes/kicker_drift/kicker_drift_node.hpp"

@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include "security/certificates.hpp"
-#include "security/private_files.hpp"
 #include "security/rights.hpp"
 #include "tests/security/key_fixture.hpp"
 

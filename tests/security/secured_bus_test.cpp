@@ -15,7 +15,7 @@
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
 #include "security/certificates.hpp"
-#include "security/private_files.hpp"
+#include "security/key_folder.hpp"
 #include "security/rights.hpp"
 #include "tests/bus/test_domain.hpp"
 #include "tests/security/key_fixture.hpp"

@@ -7,7 +7,6 @@
 #include "kicking/geometry/time.hpp"
 #include "kicking/model/robot_model.hpp"
 #include "sim/kicker/kicker.hpp"
-#include "sim/kicker/kicker_device.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::sim {

@@ -7,8 +7,8 @@
 
 #include "kicking/geometry/time.hpp"
 #include "sim/kicker/flight.hpp"
+#include "sim/laser/laser.hpp"
 #include "sim/laser/record.hpp"
-#include "sim/laser/scan_builder.hpp"
 
 namespace trivela::sim {
 namespace {

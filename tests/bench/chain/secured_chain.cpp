@@ -9,7 +9,6 @@
 
 #include "security/certificates.hpp"
 #include "security/key_folder.hpp"
-#include "security/private_files.hpp"
 #include "security/rights.hpp"
 #include "tests/bench/chain/domains.hpp"
 
