@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """beside.py BEFORE AFTER [--runs N]: the benchmarks of two builds in turns, N times each (5).
 
-BEFORE and AFTER are build folders. Of decision_bench, lob_bench and simulate_bench the processor time of each benchmark, of `trivela simulate`
-with its log written that of the whole, of chain_bench the median of each chain. The table has the medians of the runs, their ratio, the
-spread of BEFORE's runs (largest less smallest, of its median), and a mark where AFTER is slower by more than that and by more than 3 %.
+BEFORE and AFTER are build folders. Measured are:
+- of decision_bench, lob_bench and simulate_bench the processor time of each benchmark, of `trivela simulate` with its log that of the whole;
+- of a lockstep match and of the report of its log the time that passes;
+- of chain_bench the median of each chain.
+The table has the medians of the runs, their ratio, and the spread of BEFORE's runs (largest less smallest, of its median). A mark shows
+where AFTER is slower by more than that and by more than 3 %.
 """
 import argparse
 import json
@@ -13,6 +16,7 @@ import resource
 import statistics
 import subprocess
 import tempfile
+import time
 
 MARGIN = 0.03
 SIMULATE = ["simulate", "--arms", "stopped,moving", "--matches", "200", "--possessions", "60", "--seed", "3", "--jobs", "1"]
@@ -31,6 +35,16 @@ def simulate(build):
     return {"trivela simulate, its log written [s]": after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime}
 
 
+def match(build):
+    with tempfile.TemporaryDirectory() as folder:
+        log, times = pathlib.Path(folder) / "m.db", [time.monotonic()]
+        halves = ["--half", "stopped", "--half", "moving"]
+        for verb in ["match", *halves, "--minutes", "2", "--seed", "1", "--out", log], ["report", log]:
+            subprocess.run([build / "trivela", *verb], capture_output=True, check=True)
+            times.append(time.monotonic())
+    return {"trivela match, 4 minutes in lockstep [s]": times[1] - times[0], "trivela report of its log [s]": times[2] - times[1]}
+
+
 def chain(build):
     done = subprocess.run([build / "tests" / "chain_bench", "--samples", "100", "--rates", "100", "1000"], capture_output=True, check=True, text=True)
     row = re.compile(r"^ *(\d+) idle +SCHED_OTHER +(?:\d+ % )?(.+?) {2,}\d+ +\d+ +([\d.]+) ", re.M)
@@ -38,7 +52,7 @@ def chain(build):
 
 
 def run(build):
-    return benchmarks(build, "decision_bench") | benchmarks(build, "lob_bench") | benchmarks(build, "simulate_bench") | simulate(build) | chain(build)
+    return benchmarks(build, "decision_bench") | benchmarks(build, "lob_bench") | benchmarks(build, "simulate_bench") | simulate(build) | match(build) | chain(build)
 
 
 def main():
