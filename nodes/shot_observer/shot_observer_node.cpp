@@ -74,7 +74,12 @@ void ShotObserverNode::on_receipt(const msg::KickReceipt& receipt) {
 }
 
 void ShotObserverNode::on_frame(const msg::FlightFrame& frame) {
-  first_.once([this] { expect_readers(context_, outcome_out_); });
+  first_.once([this] {
+    expect_readers(context_, outcome_out_);
+    if (!learning_) return;
+    expect_readers(context_, *estimate_out_);
+    await_readers();
+  });
   auto referee = input_of_cycle(context_, *referee_, frame.t_ns);
   if (!context_.participant.believes(frame.t_exposure_ns)) return;
   if (referee && !context_.participant.believes(referee->t_ns)) referee.reset();
@@ -96,14 +101,18 @@ void ShotObserverNode::publish(std::vector<msg::KickOutcome> settled, std::int64
   }
 }
 
-/// Where decisions go by it, in lockstep, the cycle ends when everybody has it: the next decision is the same on every
-/// machine. That takes some 50 ms of real time.
 void ShotObserverNode::say(const msg::KickerEstimate& estimate) {
   estimate_out_->write(estimate);
   const bool decides = context_.settings.self_calibration.mode == config::SelfCalibrationMode::kOn;
-  if (decides && context_.settings.run.lockstep && !estimate_out_->wait_until_received(kLockstepTimeout))
-    throw std::runtime_error{"kicker_estimate was not received within 20 s"};
+  if (decides && context_.settings.run.lockstep) await_readers();
   if (estimate.kick_id != 0) keep(estimate);
+}
+
+/// In lockstep everybody has the first estimate before play begins, and, where decisions go by them, each before the
+/// cycle ends: the next decision is the same on every machine. That takes some 50 ms of real time.
+void ShotObserverNode::await_readers() {
+  if (!estimate_out_->wait_until_received(kLockstepTimeout))
+    throw std::runtime_error{"kicker_estimate was not received within 20 s"};
 }
 
 /// For the next match. A disk that is full ends no match.

@@ -24,6 +24,7 @@ class ShotObserverNode {
   void publish(std::vector<msg::KickOutcome> settled, std::int64_t t_ns);
   void begin_learning();
   void say(const msg::KickerEstimate& estimate);
+  void await_readers();
   void keep_refused_state();
   void keep(const msg::KickerEstimate& estimate);
 
