@@ -4,13 +4,16 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 #include "cli/launch/progress_bar.hpp"
@@ -38,6 +41,38 @@ void require_finite_numbers(CLI::App& verb) {
     if (option->get_type_name().starts_with(CLI::detail::type_name<double>())) option->check(problem);
   }
   for (CLI::App* part : verb.get_subcommands(nullptr)) require_finite_numbers(*part);
+}
+
+/// Where verbs write, as positional or flag: one file each.
+constexpr std::array<std::string_view, 13> kOutputs{"out",    "out-dir",    "html",  "csv",     "svg", "plot", "mcap",
+                                                    "record", "synthesize", "truth", "results", "dir", "to"};
+
+void find_outputs(CLI::App& verb, std::vector<CLI::Option*>& outputs) {
+  for (CLI::Option* option : verb.get_options()) {
+    if (option->get_items_expected_max() == 1 && std::ranges::count(kOutputs, option->get_single_name()) > 0)
+      outputs.push_back(option);
+  }
+  for (CLI::App* part : verb.get_subcommands(nullptr)) find_outputs(*part, outputs);
+}
+
+/// Lets every output of a command line have a name, and no two the same: one of them would be lost. Call it when all
+/// flags are there.
+void require_own_outputs(CLI::App& app) {
+  std::vector<CLI::Option*> outputs;
+  find_outputs(app, outputs);
+  const auto place = [](const std::string& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::current_path() / file);
+  };
+  for (CLI::Option* output : outputs) {
+    output->check([=](const std::string& file) -> std::string {
+      if (file.empty()) return "needs a name";
+      for (const CLI::Option* other : outputs) {
+        if (other != output && !other->empty() && place(other->results().front()) == place(file))
+          return fmt::format("the same file as {}: {}", other->get_name(), file);
+      }
+      return {};
+    });
+  }
 }
 
 void add_verbs(CLI::App& app, const std::vector<VerbGroup>& groups, int& exit_code) {
@@ -91,6 +126,7 @@ int run(const ProgramInfo& program, int argc, char** argv) {
   int exit_code = kDone;
   add_verbs(app, program.verbs, exit_code);
   require_finite_numbers(app);
+  require_own_outputs(app);
   if (const auto wrong = unknown_verb(app, argc, argv)) throw UsageError{*wrong};
   try {
     app.parse(argc, argv);

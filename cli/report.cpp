@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,21 +38,11 @@ void allow_many_files() {
   setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-/// Throws UsageError: one of them would be lost.
-void refuse_one_file_for_both(const std::string& out, const std::string& html) {
-  if (out.empty() || html.empty()) return;
-  const auto place = [](const std::string& file) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
-  };
-  if (place(out) == place(html)) throw UsageError{fmt::format("--out and --html are the same file: {}", html)};
-}
-
 evaluator::Report report_of(const ReportArguments& arguments) {
   using log::Check;
   const auto gates = parse_gates(arguments.gates, evaluator::report_gate_metrics());
   require_writable("--out", arguments.out);
   require_writable("--html", arguments.html);
-  refuse_one_file_for_both(arguments.out, arguments.html);
   allow_many_files();
   std::vector<std::unique_ptr<log::Reader>> readers;
   std::vector<evaluator::OpenLog> logs;
@@ -105,7 +94,6 @@ int run_report(const ReportArguments& arguments) {
 void add_report(CLI::App& app, int& exit_code) {
   const auto [verb, arguments] =
       add_verb(app, exit_code, "report", "Table 2 of match logs, why kicks missed, and data quality", run_report);
-  const CLI::Validator is_named([](const std::string& file) { return file.empty() ? "needs a file's name" : ""; }, "");
   verb->add_option("logs", arguments->logs, "Match logs, such as out/match.db; each of their kicks counts once")
       ->type_name("DB")
       ->required();
@@ -115,9 +103,7 @@ void add_report(CLI::App& app, int& exit_code) {
   form->add_flag("--markdown", arguments->markdown, "Markdown");
   form->add_flag("--latex", arguments->latex, "LaTeX, for \\input");
   form->require_option(0, 1);
-  verb->add_option("--out", arguments->out, "Write to this file, not to standard output")
-      ->type_name("FILE")
-      ->check(is_named);
+  verb->add_option("--out", arguments->out, "Write to this file, not to standard output")->type_name("FILE");
   verb->add_option("--blocked", arguments->blocked,
                    "Blocked kicks: outside, as in Table 2, or apart: efficiency is of the others (outside)")
       ->check(CLI::IsMember({"outside", "apart"}));
@@ -127,8 +113,7 @@ void add_report(CLI::App& app, int& exit_code) {
       "Compare every row with the digest that the recorder wrote, also in a long log; short ones always are");
   verb->add_option("--html", arguments->html,
                    "Write a page with figures, the list of kicks and their replays to this file as well: one file that "
-                   "needs nothing else")
-      ->check(is_named);
+                   "needs nothing else");
 }
 
 }  // namespace trivela::cli

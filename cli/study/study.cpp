@@ -110,7 +110,6 @@ void add_arm_options(CLI::App& verb, experiment::ArmBase& base) {
 }
 
 void StudyFlags::require_writable() const {
-  if (!csv.empty() && csv == svg) throw UsageError{fmt::format("--csv and --svg are the same file: {}", csv)};
   const auto& shard = plan.shard;
   check_shard(shard, plan.matches);
   if (shard && results.empty())

@@ -37,8 +37,8 @@ struct StudyFlags {
 
   experiment::StudyPlayed played(const sim::Scenario& scenario) const;
 
-  /// Throws before anything is played: where an output cannot be written or two are the same file, and where a shard
-  /// has no results file or is asked for a report.
+  /// Throws before anything is played: where an output cannot be written, and where a shard has no results file or is
+  /// asked for a report.
   void require_writable() const;
 };
 

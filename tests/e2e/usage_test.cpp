@@ -273,10 +273,32 @@ TEST(Usage, FilesThatCannotBeWrittenAreSaidBeforeAnythingIsComputed) {
     EXPECT_THAT(trivela.errors(), HasSubstr(says));
     EXPECT_EQ(trivela.output(), "");
   }
-  Program twice{"trivela", {"study", "frontier", "--matches", "1000000", "--csv", "f", "--svg", "f"}, folder.path()};
-  EXPECT_EQ(twice.wait(), 2);
-  EXPECT_THAT(twice.errors(), HasSubstr("--csv and --svg are the same file: f"));
   EXPECT_FALSE(exists(folder / "s.db"));
+}
+
+TEST(Usage, EachOutputHasANameAndAFileOfItsOwn) {
+  const tests::Folder folder;
+  for (const auto& [arguments, says] : std::vector<BadNumber>{
+           {{"study", "frontier", "--csv", "f", "--svg", "f"}, "--csv: the same file as --svg: f"},
+           {{"study", "frontier", "--results", "./f", "--svg", "f"}, "--results: the same file as --svg: ./f"},
+           {{"report", "match.db", "--out", "f", "--html", "./f"}, "the same file as --"},
+           {{"compare", "--csv", "f", "--out", "f"}, "--csv: the same file as --out: f"},
+           {{"export", "match.db", "--csv", "f", "--mcap", "f"}, "--csv: the same file as --mcap: f"},
+           {{"scan", "--synthesize", "f", "--truth", "f"}, "the same file as --synthesize: f"},
+           {{"calibrate", "rotation", "in.csv", "--out", "f", "--plot", "f"}, "the same file as --"},
+           {{"simulate", "--arms", "moving", "--out", ""}, "--out: needs a name"},
+           {{"match", "--half", "moving", "--out", ""}, "--out: needs a name"},
+           {{"replay", "match.db", "--out", ""}, "--out: needs a name"},
+           {{"compare", "--csv", "f", "--out", ""}, "--out: needs a name"},
+           {{"report", "match.db", "--html", ""}, "--html: needs a name"},
+           {{"export", "match.db", "--mcap", "", "--csv", "f"}, "--mcap: needs a name"},
+           {{"study", "arms", "--json", "--svg", ""}, "--svg: needs a name"},
+           {{"merge", "", "match.db"}, "out: needs a name"}}) {
+    Program trivela{"trivela", arguments, folder.path()};
+    EXPECT_EQ(trivela.wait(), 2) << says;
+    EXPECT_THAT(trivela.errors(), HasSubstr(says));
+    EXPECT_EQ(trivela.output(), "");
+  }
   EXPECT_FALSE(exists(folder / "f"));
 }
 
