@@ -40,6 +40,7 @@ class ChildProcess {
 
   /// "exit code 1", "signal 9 (Killed)".
   std::string how_it_ended() const;
+  bool died_of(int signal) const;
 
   /// Asks it to stop.
   void terminate() const;
@@ -63,7 +64,8 @@ std::string dead_node(std::deque<ChildProcess>& nodes);
 
 /// Ends them. Each is asked once, since a second signal would hit one that has stopped listening. The first `last` of
 /// the list stop after the others, one after the other from behind: the recorder hears what the others say on their way
-/// out. Returns what went wrong, a sentence each.
+/// out. Returns what went wrong, a sentence each; a node that was asked before it listened dies of that, which is
+/// right.
 std::vector<std::string> stop_all(std::deque<ChildProcess>& nodes, std::size_t last);
 
 /// From now on the node is this program with the node's name as its first argument.
