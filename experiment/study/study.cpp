@@ -107,15 +107,17 @@ std::string csv_of(const Study& study, const std::vector<StudyRow>& rows, const 
 
 /// The head of every study's JSON, with "rows" of the same columns.
 Json json_of(const Study& study, const std::vector<StudyRow>& rows, const StudyPlayed& played) {
-  Json json{{"simulated", true},
-            {"study", study.name},
-            {"scenario", played.scenario},
-            {"seed", played.seed},
-            {"matches", played.matches},
-            {"possessions", played.possessions},
-            {"calibrations", played.calibrations},
-            {"blocked", played.efficiency == Measure::kUnblocked ? "apart" : "outside"},
-            {"rows", Json::array()}};
+  Json json{
+      {"simulated", true},
+      {"study", study.name},
+      {"scenario", played.scenario},
+      {"seed", played.seed},
+      {"matches", played.matches},
+      {"possessions", played.possessions},
+      {"calibrations", played.calibrations},
+      {"blocked", played.efficiency == Measure::kUnblocked ? "apart" : "outside"},
+      {"notes", {"on_target and blocked are as the robots observed them, goals and bounced the simulator's truth"}},
+      {"rows", Json::array()}};
   for (const StudyRow& row : rows) {
     Json cells;
     for (const RowLabel& label : row.labels) cells[label.key] = label.text.empty() ? Json() : Json(label.text);
