@@ -68,9 +68,15 @@ int list_kicks(const LabelArguments& arguments) {
   return kDone;
 }
 
+const NamedKick& kick_meant(const std::vector<NamedKick>& kicks, const LabelArguments& arguments) try {
+  return evaluator::kick_called(kicks, arguments.kick, arguments.session);
+} catch (const std::runtime_error& none) {
+  throw UsageError{none.what()};
+}
+
 int add_one(const LabelArguments& arguments) {
   const auto kicks = counted_kicks(arguments.log);
-  const NamedKick& kick = evaluator::kick_called(kicks, arguments.kick, arguments.session);
+  const NamedKick& kick = kick_meant(kicks, arguments);
   if (arguments.withdraw && !kick.by_hand)
     throw std::runtime_error{fmt::format("{} has no label by hand to withdraw", text_of(kick))};
   log::Label label{.session_id = kick.session_id,

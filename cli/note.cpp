@@ -57,14 +57,14 @@ struct Meant {
   std::set<std::int64_t> to_withdraw;
 };
 
-/// Throws std::runtime_error where no session is meant, or nothing is to be withdrawn.
+/// Throws UsageError where no session is meant, std::runtime_error where nothing is to be withdrawn.
 Meant sessions_meant(const NoteArguments& arguments) {
   Meant meant;
   const log::Reader reader(arguments.log);
   for (const log::RecordedSession& session : reader.sessions())
     if (session.uuid.starts_with(arguments.session)) meant.all.push_back(session.session_id);
   if (meant.all.empty())
-    throw std::runtime_error{fmt::format("{} has no session that begins with '{}'", arguments.log, arguments.session)};
+    throw UsageError{fmt::format("{} has no session that begins with '{}'", arguments.log, arguments.session)};
   if (arguments.withdraw.empty()) return meant;
   for (const evaluator::SessionNote& note : evaluator::session_notes(reader))
     if (note.kind == arguments.withdraw && note.holds && note.text && note.uuid.starts_with(arguments.session))

@@ -119,7 +119,8 @@ std::optional<RobotSetup> other_setup(const RobotSetup& recorded, const ReplayFl
   return setup;
 }
 
-/// The session that is meant. Throws std::runtime_error with the sessions that there are.
+/// The session that is meant. Throws UsageError with the sessions that there are, std::runtime_error where none will
+/// do.
 RecordedSession session_called(const Reader& reader, const ReplayFlags& flags) {
   std::vector<RecordedSession> meant;
   std::string list, replays;
@@ -139,8 +140,8 @@ RecordedSession session_called(const Reader& reader, const ReplayFlags& flags) {
         fmt::format("{}: no session of it has wheel samples: there is nothing to decide again. "
                     "Logs that a recorder made have them.{}",
                     flags.log, replays)};
-  throw std::runtime_error{fmt::format("{}: {} of its sessions begin with \"{}\"; --session names one of:{}", flags.log,
-                                       meant.size(), flags.session, list)};
+  throw UsageError{fmt::format("{}: {} of its sessions begin with \"{}\"; --session names one of:{}", flags.log,
+                               meant.size(), flags.session, list)};
 }
 
 std::string share(std::int64_t part, std::int64_t whole) {

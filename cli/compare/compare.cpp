@@ -95,7 +95,7 @@ evaluator::PolicyComparison compared(const CompareArguments& arguments) try {
 } catch (const evaluator::BadChoice& error) {
   throw UsageError(fmt::format("--{}", error.what()));
 } catch (const evaluator::BadOption& error) {
-  throw std::runtime_error(fmt::format("--{}", error.what()));
+  throw UsageError(fmt::format("--{}", error.what()));
 }
 
 void write_out(const std::string& out, const std::string& text) { out.empty() ? say(text) : write_file(out, text); }

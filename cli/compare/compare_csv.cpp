@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 
@@ -79,13 +80,16 @@ void check_stratum(const CsvComparison& options) {
 
 void check_header(const std::vector<std::string>& header, const std::string& file, const CsvComparison& options) {
   const auto has = [&](const std::string& name) { return std::ranges::find(header, name) != header.end(); };
-  const auto need = [&](const std::string& name) {
-    if (has(name)) return;
-    throw std::runtime_error(fmt::format("{}: no column {} in the header ({})", file, name, fmt::join(header, ", ")));
+  const auto missing = [&](const std::string& name) {
+    return fmt::format("{}: no column {} in the header ({})", file, name, fmt::join(header, ", "));
   };
-  need(options.by);
-  need("on_target");
-  if (!options.stratify.empty()) need(options.stratify == "distance" ? "distance_m" : options.stratify);
+  if (!has(options.by) && options.by != "policy")
+    throw UsageError(fmt::format("--by {}: {}", options.by, missing(options.by)));
+  for (const std::string& needed : {options.by, std::string{"on_target"}})
+    if (!has(needed)) throw std::runtime_error(missing(needed));
+  const std::string situation = options.stratify == "distance" ? "distance_m" : options.stratify;
+  if (!situation.empty() && !has(situation))
+    throw UsageError(fmt::format("--stratify {}: {}", options.stratify, missing(situation)));
   for (const std::string& name : header) {
     if (const auto n = std::ranges::count(header, name); n > 1) {
       throw std::runtime_error(fmt::format("{}: column {} stands {} times in the header", file, name, n));
@@ -103,13 +107,18 @@ void add_minutes(KickDataset& dataset, const Row& row, const evaluator::Opportun
                   fmt::format("differs from {} in an earlier row of the same group and match", place->second));
 }
 
+// In metres, looked at in every row: a bad cell is one whether or not anybody stratifies by it.
+std::optional<double> distance_of(const Row& row) {
+  const auto distance_m = row.number_if_any("distance_m");
+  if (distance_m && *distance_m < 0.0) throw CellError("distance_m", *row.word("distance_m"), "is negative");
+  return distance_m;
+}
+
 std::uint32_t stratum_of(KickDataset& dataset, const Row& row, const std::string& column) {
   if (column.empty()) return 0;
   if (column == "distance") {
-    const auto distance_m = row.number_if_any("distance_m");
-    if (!distance_m) return static_cast<std::uint32_t>(dataset.strata.size());
-    if (*distance_m < 0.0) throw CellError("distance_m", *row.word("distance_m"), "is negative");
-    return evaluator::distance_bin(*distance_m);
+    const auto distance_m = distance_of(row);
+    return distance_m ? evaluator::distance_bin(*distance_m) : static_cast<std::uint32_t>(dataset.strata.size());
   }
   const auto word = row.word(column);
   if (!word) return UINT32_MAX;
@@ -143,6 +152,7 @@ KickDataset read_kicks(std::istream& in, const std::string& file, const CsvCompa
       opportunity.group = evaluator::place_of(dataset.groups, word_of(row, options.by));
       if (row.has("match")) opportunity.match = matches.of(word_of(row, "match"));
       if (row.has("opportunity")) opportunity.id = opportunities.of(word_of(row, "opportunity")) + 1;
+      distance_of(row);
       opportunity.stratum = stratum_of(dataset, row, options.stratify);
       if (once_each) plays.add(opportunity, row, options.by, record->line);
       add_minutes(dataset, row, opportunity);
@@ -158,6 +168,7 @@ KickDataset read_kicks(std::istream& in, const std::string& file, const CsvCompa
   for (evaluator::Opportunity& opportunity : dataset.opportunities) {
     opportunity.stratum = std::min(opportunity.stratum, unknown);
   }
+  dataset.outcome = "table";
   dataset.design_reason = "a table of kicks does not say how the policies were assigned; --design does";
   return dataset;
 }

@@ -30,7 +30,7 @@ struct CsvComparison {
 /// unknown), and if wanted `kicked` (0: an opportunity without a kick), `match`, `opportunity`, `minutes` (of play of
 /// that group in that match, the same in each of its rows), `distance_m`. Throws std::runtime_error naming file, line,
 /// column and value, also where a group has an opportunity of a match twice (without `match`: where they are paired);
-/// UsageError where groups or situations are to be the outcome.
+/// UsageError where groups or situations are to be the outcome or a column that the table has not.
 evaluator::KickDataset read_kicks(std::istream& in, const std::string& file, const CsvComparison& options);
 
 }  // namespace trivela::cli

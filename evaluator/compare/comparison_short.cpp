@@ -134,6 +134,7 @@ std::string to_short_text(const PolicyComparison& c) {
                       design == Design::kBeforeAfter ? "before and after" : label(design),
                       c.dataset.outcome == "truth"      ? "by the simulator's truth"
                       : c.dataset.outcome == "labelled" ? "as labelled"
+                      : c.dataset.outcome == "table"    ? "as the table says"
                                                         : "as observed");
   return text + remarks_of(c) + gates_text(c.gates);
 }

@@ -272,6 +272,7 @@ std::string to_text(const PolicyComparison& c) {
   text += "\nDesign: " + wrapped(design_sentence(c.pairs.front(), c), "  ", 100) + ".\n";
   text += fmt::format("Outcomes: {}.\n", c.dataset.outcome == "truth"      ? "the simulator's truth"
                                          : c.dataset.outcome == "labelled" ? "as somebody labelled them"
+                                         : c.dataset.outcome == "table"    ? "as the table says"
                                                                            : "as the robots observed them");
   if (c.sample_ratio_p) {
     text += fmt::format("Shares as planned: p {}{}\n", p_value(*c.sample_ratio_p),

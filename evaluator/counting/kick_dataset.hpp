@@ -67,7 +67,7 @@ struct KickDataset {
   std::string design_reason;           ///< how the design is known
   std::vector<double> planned_shares;  ///< of the groups, where drawn at random with constant chances; else empty
   bool simulated = false;
-  std::string outcome = "observed";  ///< "observed", "truth", or "labelled": somebody watched
+  std::string outcome = "observed";  ///< "observed", "truth", "labelled": somebody watched, or "table"
   bool keeper = false;               ///< a keeper saved something in these matches, or people say what were goals
   bool blocked_apart = false;        ///< blocked kicks stand apart
   std::vector<std::string> remarks;  ///< sentences on what was read

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "cli/verbs.hpp"
+#include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
 namespace trivela::cli {
@@ -211,6 +212,28 @@ TEST_F(CompareCsv, SaysWhereTheTableIsWrong) {
   EXPECT_THAT(output_of("policy,on_target\na,1\nb,1\n", "--counts a=1/2"), HasSubstr("one of the three"));
   EXPECT_THAT(output_of("policy,on_target\na,1\nb,1\n", "--smallest-effect 0"), HasSubstr("between 0 and 100"));
   EXPECT_THAT(output_of("policy,on_target\na,1\nb,1\n", "--smallest-effect nan"), HasSubstr("between 0 and 100"));
+}
+
+TEST_F(CompareCsv, ANameThatTheTableHasNotIsBadUsage) {
+  std::ofstream(path("kicks.csv")) << "policy,on_target\na,1\nb,0\n";
+  for (const char* const flag : {"--by foo", "--stratify foo", "--stratify distance", "--baseline foo"})
+    EXPECT_THROW(run_verbs({add_compare}, "compare --csv " + path("kicks.csv").string() + " " + flag), UsageError)
+        << flag;
+}
+
+TEST_F(CompareCsv, ABadDistanceIsRefusedWhetherOrNotAnybodyStratifies) {
+  EXPECT_THAT(output_of("policy,on_target,distance_m\na,1,far\n"),
+              HasSubstr("kicks.csv:2: column distance_m: 'far' is not a number"));
+  EXPECT_THAT(output_of("policy,on_target,distance_m\na,1,-2\n"), HasSubstr("column distance_m: '-2' is negative"));
+  EXPECT_THAT(output_of("policy,on_target,distance_m\na,1,\nb,0,3\n"), HasSubstr("b against a"));
+}
+
+TEST_F(CompareCsv, OutcomesAreAsTheTableSays) {
+  const std::string csv = "policy,on_target\na,1\nb,0\n";
+  EXPECT_THAT(output_of(csv), HasSubstr("Outcomes: as the table says.\n"));
+  EXPECT_THAT(run_verbs({add_compare}, "compare --csv " + path("kicks.csv").string()).out,
+              HasSubstr("outcomes as the table says"));
+  EXPECT_EQ(json_of(csv)["outcome"], "table");
 }
 
 TEST_F(CompareCsv, WhatHoldsForTheWholeTableNamesTheFile) {

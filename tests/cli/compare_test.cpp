@@ -238,6 +238,13 @@ TEST_F(CompareLogs, ThatDifferInNothingSaySo) {
   EXPECT_THROW(compared("--by log"), std::runtime_error) << "the same session: one log alone has kicks";
 }
 
+TEST_F(CompareLogs, ThatHaveNotWhatIsAskedForMakeBadUsage) {
+  write_both("a.db", 1, 10, 20);
+  write_both("b.db", 2, 40, 22);
+  for (const char* const flag : {"--by foo", "--by arm", "--stratify foo", "--baseline foo"})
+    EXPECT_THROW(compared(flag), UsageError) << flag;
+}
+
 TEST_F(CompareLogs, HaveGates) {
   write("a.db", 1, 1, 10, kOlder);
   write("b.db", 2, 2, 40, kNewer);

@@ -80,13 +80,16 @@ TEST_F(AfterTheMatch, WhatSqliteSaysIsWhatWasLabelled) {
 }
 
 TEST_F(AfterTheMatch, WhatMakesNoSenseIsRefused) {
-  for (const Words& words : {Words{"label", log_, "1:3"}, Words{"label", log_, "1:3", "post"},
-                             Words{"label", log_, "1:3", "post", "--withdraw", "--by", "Ada"},
-                             Words{"label", log_, "--by", "Ada"}, Words{"label", log_, "1:3", "--serve"},
-                             Words{"note", log_, "rain"}, Words{"note", log_, "--by", "Ada"}, Words{"doctor"}})
+  for (const Words& words :
+       {Words{"label", log_, "1:3"}, Words{"label", log_, "1:3", "post"},
+        Words{"label", log_, "1:3", "post", "--withdraw", "--by", "Ada"}, Words{"label", log_, "--by", "Ada"},
+        Words{"label", log_, "1:3", "--serve"}, Words{"note", log_, "rain"},
+        Words{"note", log_, "rain", "--by", "Ada", "--session", "ffff"},
+        Words{"label", log_, "1:3", "post", "--by", "Ada", "--session", "ffff"}, Words{"note", log_, "--by", "Ada"},
+        Words{"doctor"}})
     EXPECT_THROW(said(words), UsageError) << words[1];
   EXPECT_THROW(said({"label", log_, "1:3", "in", "--by", "Ada"}), CLI::ValidationError);
-  EXPECT_THAT(why_refused<std::runtime_error>({"label", log_, "1:9", "post", "--by", "Ada"}),
+  EXPECT_THAT(why_refused<UsageError>({"label", log_, "1:9", "post", "--by", "Ada"}),
               HasSubstr("there is no kick 1:9"));
   EXPECT_THAT(said({"query", log_, "SELECT count(*) AS n FROM labels", "--csv"}), HasSubstr("n\n0\n"));
 }
