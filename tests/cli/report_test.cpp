@@ -95,15 +95,6 @@ TEST_F(ReportVerb, FailsOnAFileThatIsNoLog) {
   EXPECT_THROW(run(), std::runtime_error);
 }
 
-TEST_F(ReportVerb, TakesNoFileForTwoOutputsAndNoneWithoutAName) {
-  evaluator::MatchLog(path(), session(), options()).close();
-  EXPECT_THROW(run("--out same.txt --html ./same.txt"), UsageError);
-  for (const std::string flag : {"--out", "--html"})
-    EXPECT_THROW(run_verbs({add_report}, std::vector<std::string>{"report", path().string(), flag, ""}),
-                 CLI::ValidationError);
-  EXPECT_FALSE(std::filesystem::exists("same.txt"));
-}
-
 TEST_F(ReportVerb, TakesOneFormat) {
   for (const char* const two : {"--json --csv", "--markdown --latex", "--csv --latex"})
     EXPECT_THROW(run(two), CLI::ParseError) << two;
