@@ -86,7 +86,7 @@ std::vector<PolicyRow> rows_of(const Report& report, std::optional<int> robot_id
 std::vector<PolicyRow> rows_named(const std::vector<PolicyRow>& rows, const std::string& subject) {
   std::vector<PolicyRow> arms, policies;
   for (const PolicyRow& row : rows) {
-    if (row.arm == subject || name_of(row) == subject) arms.push_back(row);
+    if ((row.arm.empty() ? row.policy : row.arm) == subject || name_of(row) == subject) arms.push_back(row);
     if (row.policy == subject) policies.push_back(row);
   }
   return arms.empty() ? policies : arms;

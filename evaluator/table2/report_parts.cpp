@@ -267,7 +267,7 @@ std::string line_of(const RefusedOrders& refused) {
 }
 
 std::string name_of(const PolicyRow& row) {
-  if (row.arm.empty()) return row.policy;
+  if (row.arm.empty()) return row.policy + (row.beside_arms ? " (no arm)" : "");
   return row.arm.starts_with(row.policy) ? row.arm : fmt::format("{}/{}", row.arm, row.policy);
 }
 

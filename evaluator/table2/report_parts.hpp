@@ -37,7 +37,7 @@ Table length_table(std::span<const PlayedLength> lengths);
 /// "unclosed kick 7 of robot 1 at 3.20 s (moving): no receipt outcome".
 std::string line_of(const UnclosedKick& kick);
 
-/// "moving"; of an experiment the arm, and its policy where that is another word.
+/// "moving"; of an experiment the arm, and its policy where that is another word; "moving (no arm)" beside arms.
 std::string name_of(const PolicyRow& row);
 
 /// Sentences on what was played: the arms of experiments, other sessions one by one. What belongs to the one before

@@ -51,6 +51,7 @@ class Rows {
       row.robot_id = key.robot_id;
       row.policy = key.policy;
       row.arm = key.arm == 0 ? "" : arms_.all[key.arm - 1].name;
+      row.beside_arms = key.arm == 0 && !arms_.all.empty();
       row.blocked_apart = blocked_apart;
       if (key.robot_id != kAllRobots) robots.insert(key.robot_id);
     }

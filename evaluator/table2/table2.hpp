@@ -25,7 +25,8 @@ inline const std::vector<std::string> kMisses = {"wide_left", "wide_right", "ove
 
 /// One row of Table 2: the kicks of a policy, of an experiment those of an arm with it.
 struct PolicyRow : KickCounts {
-  std::string arm;  ///< Arm::name; empty: none
+  std::string arm;           ///< Arm::name; empty: none
+  bool beside_arms = false;  ///< it has none, and other rows have
   std::string policy;
   std::int64_t repeated = 0;                 ///< kicks in situations that it had in an earlier, paired half
   std::optional<stats::Interval> paired_ci;  ///< of the efficiency, where some are repeated; none: Wilson's holds

@@ -196,6 +196,15 @@ TEST_F(ReportOfLogs, HasATableByRobot) {
   EXPECT_EQ(report.robots[2].inside(), 1);
 }
 
+TEST_F(ReportOfLogs, NoTwoRowsHaveOneNameWhereAMatchIsBesideAnExperiment) {
+  write_match("a.db", 1, 3, 2);
+  write_experiment("e.db", "run", "stopped", "moving");
+  std::vector<std::string> names;
+  for (const PolicyRow& row : reported({"a.db", "e.db"}).policies) names.push_back(name_of(row));
+  EXPECT_THAT(names, testing::UnorderedElementsAre("stopped (no arm)", "moving (no arm)", "stopped/moving", "moving"));
+  EXPECT_EQ(name_of(reported({"a.db"}).policies.front()), "stopped") << "no arm is anywhere";
+}
+
 TEST_F(ReportOfLogs, PoliciesStandInTheOrderOfTheRegistry) {
   TestExperiment experiment(path("e.db"), 1);
   experiment.begin();
