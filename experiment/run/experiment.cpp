@@ -136,6 +136,13 @@ std::string to_text(const ExperimentPlan& plan, const ExperimentRun& run, unsign
   }
   if (keeper) text += fmt::format("goals: by the simulator's truth, on target and past its keeper\n");
   for (const Arm& arm : plan.arms) text += label_warning(arm.name, arms.at(arm.name));
+  log::Reader{out, log::Check::kQuick}.query(
+      "SELECT arm, count(*) FROM sessions JOIN kick_receipts USING (session_id) WHERE refusal = 'out_of_range' GROUP "
+      "BY arm",
+      [&](const std::string& arm, std::int64_t orders) {
+        text += fmt::format("{}: {} orders were refused, since their power lies outside the robot's set-points\n", arm,
+                            orders);
+      });
   const double opportunities =
       static_cast<double>(run.matches) * plan.possessions * static_cast<double>(plan.arms.size());
   return text + fmt::format("{:.0f} opportunities in {:.2f} s with {} job{}: {:.0f} a second\n", opportunities,

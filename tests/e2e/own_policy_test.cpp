@@ -125,6 +125,17 @@ TEST_F(OwnPolicy, ThatFailsIsNamedAndThatHangsIsEndedByTheSecondSignal) {
   EXPECT_EQ(hangs.wait(), 128 + SIGTERM);
 }
 
+TEST_F(OwnPolicy, WhosePowerNoRobotHasIsToldSo) {
+  Program strong{TRIVELA_ODD_POLICIES,
+                 {"simulate", "--arms", "strong,moving", "--matches", "1", "--possessions", "3", "--out", "z.db"},
+                 folder_.path(),
+                 find_nodes};
+  EXPECT_EQ(strong.wait(), 0) << strong.errors();
+  EXPECT_THAT(strong.output(), testing::ContainsRegex("strong: [0-9]+ orders were refused, since their power lies "
+                                                      "outside the robot's set-points\n"));
+  EXPECT_THAT(strong.output(), testing::Not(HasSubstr("moving: ")));
+}
+
 TEST_F(OwnPolicy, IsTunedByItsOwnSettings) {
   EXPECT_THAT(patient({"study", "tune", "--help"}), HasSubstr("patient"));
   EXPECT_THAT(refusal("trivela", {"study", "tune", "patient"}, 2), HasSubstr("patient"));
