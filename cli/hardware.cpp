@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <cstdio>
@@ -61,6 +62,8 @@ Bench bench_of(const HardwareFlags& flags, SignalInbox& signals) {
 void say_who(const Bench& bench) {
   say(fmt::format("robot {} ({}) in domain {}\n", bench.settings.run.robot_id, bench.robot.name,
                   bench.settings.domain.domain_id));
+  if (const auto figures = config::defaulted_figures(bench.settings.run.robot); !figures.empty())
+    say(fmt::format("  not in {}, so defaults hold: {}\n", bench.settings.run.robot, fmt::join(figures, ", ")));
 }
 
 /// Wheels, and a gyro that is a device of its own.

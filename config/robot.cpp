@@ -166,6 +166,27 @@ Robot load_robot(const std::filesystem::path& path) {
   return robot;
 }
 
+std::vector<std::string> defaulted_figures(const std::filesystem::path& path) {
+  const TomlSource source = parse_file(path);
+  std::vector<std::string> missing;
+  const auto look = [&](const std::string& table, const std::string& key) {
+    if (source.root.at_path(table + key)) return;
+    std::string what = table + key;
+    for (auto dot = key.rfind('.'); dot != std::string::npos; dot = key.rfind('.', dot - 1))
+      if (const std::string whole = table + key.substr(0, dot); !source.root.at_path(whole)) what = whole;
+    if (std::ranges::find(missing, what) == missing.end()) missing.push_back(what);
+  };
+  const toml::array* const kinds = source.root["kinds"].as_array();
+  for (const auto& [key, value] : values_in(to_toml(RobotFile{}))) {
+    if (value == "0.0" || key.find('.') == std::string::npos) continue;
+    const bool of_lever = key == "kicker.lever_s";
+    if (kinds != nullptr || !of_lever) look("", key);
+    if (!key.starts_with("kicker.") || key.starts_with("kicker.ball") || of_lever) continue;
+    for (std::size_t i = 0; kinds != nullptr && i < kinds->size(); ++i) look(fmt::format("kinds[{}].", i), key);
+  }
+  return missing;
+}
+
 kicking::HeightLaw height_table_law(const Settings& settings) {
   const auto by_law = [](kicking::PolicyName policy) { return facts(policy).kind == kicking::PolicyKind::kPlay; };
   const KickDecision& decision = settings.kick_decision;

@@ -57,6 +57,11 @@ Robot robot_for(Robot robot, const Settings& settings);
 /// The same as load_robot() for the tools that calibrate: a table of kind "true" comes back as true_table.
 Robot load_robot_of_any_table(const std::filesystem::path& path);
 
+/// What a robot's file does not name though its default is not 0, by table or key: "base", "kicker.delay_s",
+/// "kinds[0].kicker.delay_s". Those are robot 1 of CAMBADA's, of a further kind the first kind's. Throws Error where
+/// the file is no TOML.
+std::vector<std::string> defaulted_figures(const std::filesystem::path& path);
+
 /// The devices as this robot has them: its kicker's lever stands at the table's height. Throws Error where hal.ioboard
 /// says another one.
 Hal hal_for(Hal devices, const Robot& robot);

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <fmt/core.h>
+
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
 #include "config/calibration_fields.hpp"
 #include "config/robot.hpp"
 #include "config/text/field_types.hpp"
@@ -89,10 +95,23 @@ struct RobotFile {
   std::optional<DistanceColumns> height_table;
 };
 
+/// Lets the set-points under `key` rise from above 0, where `v` reads a file.
+template <class V>
+void require_rising(V& v, std::string_view key, const std::vector<double>& column) {
+  if constexpr (requires { v.require(key, [] {}); })
+    v.require(key, [&] {
+      for (std::size_t i = 0; i < column.size(); ++i) {
+        if (const double before = i == 0 ? 0.0 : column[i - 1]; !(column[i] > before))
+          throw std::invalid_argument{fmt::format("[{}] must be above {}", i, before)};
+      }
+    });
+}
+
 template <class V>
 void fields(V& v, DistanceColumns& t) {
   v("distances_m", t.distances_m, Range{0.5, 30.0});
   v("powers", t.powers, Range{0.0, 1e6});
+  require_rising(v, "powers", t.powers);
 }
 
 template <class V>
@@ -102,6 +121,8 @@ void fields(V& v, TableColumns& t) {
   v("exit_speeds_mps", t.exit_speeds_mps, Range{0.1, 40.0});
   v("exit_angles_deg", t.exit_angles_deg, Range{0.0, 80.0});
   v("levers", t.levers, Range{0.0, 205.0});
+  require_rising(v, "powers", t.powers);
+  require_rising(v, "exit_speeds_mps", t.exit_speeds_mps);
 }
 
 template <class V>

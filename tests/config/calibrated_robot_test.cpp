@@ -6,6 +6,7 @@
 
 #include "config/robot.hpp"
 #include "config/text/error.hpp"
+#include "config/text/installation.hpp"
 #include "kicking/ballistics/crossing.hpp"
 #include "tests/support/folder.hpp"
 
@@ -93,6 +94,30 @@ TEST_F(CalibratedRobot, NamesAnglesThatDoNotFitTheTable) {
               ThrowsMessage<Error>(HasSubstr("table.powers has 2 entries, table.exit_angles_deg 1")));
   EXPECT_THAT([&] { load_robot(file(kTable + "exit_angles_deg = [44.0, 95.0]\n")); },
               ThrowsMessage<Error>(AllOf(HasSubstr("robot.toml:5"), HasSubstr("must lie in [0, 80]"))));
+}
+
+TEST_F(CalibratedRobot, NamesTheLineOfASetPointThatDoesNotRise) {
+  const auto refused = [&](const std::string& text, const std::string& says) {
+    EXPECT_THAT([&] { load_robot(file(text)); }, ThrowsMessage<Error>(HasSubstr(says)));
+  };
+  refused("[table]\npowers = [20.0, 15.0]\nexit_speeds_mps = [5.0, 6.0]\n",
+          "robot.toml:2: table.powers = [ 20.0, 15.0 ]: [1] must be above 20");
+  refused("[table]\npowers = [0.0, 15.0]\nexit_speeds_mps = [5.0, 6.0]\n",
+          ":2: table.powers = [ 0.0, 15.0 ]: [0] must be above 0");
+  refused(kTable + "[[kinds]]\n[kinds.table]\npowers = [20.0, 25.0]\nexit_speeds_mps = [5.0, 5.0]\n",
+          "kinds[0].table.exit_speeds_mps = [ 5.0, 5.0 ]: [1] must be above 5");
+  refused("[height_table]\ndistances_m = [3.0, 4.0]\npowers = [22.0, 17.0]\n", ":3: height_table.powers = ");
+}
+
+TEST_F(CalibratedRobot, NamesTheFiguresThatItsFileLeavesToTheDefaults) {
+  EXPECT_THAT(defaulted_figures(file(kTable)), testing::ElementsAre("base", "kicker"));
+  EXPECT_THAT(
+      defaulted_figures(file(kTable + "[kicker]\ndelay_s = 0.06\n[[kinds]]\n[kinds.kicker]\nexit_angle_deg = 8.0\n")),
+      AllOf(testing::Contains("base"), testing::Contains("kicker.beta_slope_s"),
+            testing::Contains("kinds[0].kicker.delay_s"), testing::Contains("kinds[0].kicker.spreads"),
+            Not(testing::Contains("kicker.delay_s")), Not(testing::Contains("kicker.direction_deg")),
+            Not(testing::Contains("kinds[0].kicker.ball_mass_kg"))));
+  EXPECT_THAT(defaulted_figures(shipped("robots/cambada_1.toml")), testing::IsEmpty());
 }
 
 TEST_F(CalibratedRobot, HasTheLeversHeightOfItsTable) {
@@ -191,7 +216,7 @@ TEST_F(CalibratedRobot, PlaysWithAHeightTableWhereTheFileHasOne) {
   EXPECT_THAT([&] { load_robot(file("[height_table]\ndistances_m = [3.0]\npowers = [17.0, 22.0]\n")); },
               ThrowsMessage<Error>(HasSubstr("height_table.distances_m has 1 entries, height_table.powers 2")));
   EXPECT_THAT([&] { load_robot(file("[height_table]\ndistances_m = [3.0, 4.0]\npowers = [22.0, 17.0]\n")); },
-              ThrowsMessage<Error>(HasSubstr("must be finite and above")));
+              ThrowsMessage<Error>(HasSubstr("height_table.powers = [ 22.0, 17.0 ]: [1] must be above 22")));
 }
 
 TEST_F(CalibratedRobot, ReadsAHeightTableByTheLawAndHeightOfThePolicy) {

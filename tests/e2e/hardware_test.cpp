@@ -80,6 +80,13 @@ TEST_F(Hardware, TheTypedWordFiresOneKickWithTheLowestSetPoint) {
   board_.with_board([](const auto& board) { EXPECT_EQ(board.pulses().front().units, 15); });
 }
 
+TEST_F(Hardware, SaysWhichFiguresTheRobotsFileLeavesToTheDefaults) {
+  std::ofstream{folder_ / "thin.toml"} << "[table]\npowers = [10, 12]\nexit_speeds_mps = [4, 5]\n";
+  const auto trivela = start(on_the_board({"--seconds", "0.1", "--set", "run.robot='thin.toml'"}));
+  trivela->wait();
+  EXPECT_THAT(trivela->output(), HasSubstr("not in thin.toml, so defaults hold: base, kicker\n"));
+}
+
 TEST_F(Hardware, AnotherWordFiresNothing) {
   const auto trivela = start(on_the_board({"--kick", "--armed"}));
   EXPECT_EQ(answered(*trivela, "yes\n"), 1);
