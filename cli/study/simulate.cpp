@@ -10,6 +10,7 @@
 #include "cli/launch/progress_bar.hpp"
 #include "cli/launch/signals.hpp"
 #include "cli/options/number_checks.hpp"
+#include "cli/options/output.hpp"
 #include "cli/options/play_options.hpp"
 #include "cli/study/study.hpp"
 #include "cli/verbs.hpp"
@@ -61,7 +62,8 @@ int simulate(const SimulateFlags& flags) {
   plan.options = {.shadows = flags.shadows, .every_cycle = flags.every_cycle};
   plan.calibrations =
       draw_calibrations(plan.scenario, flags.base, {flags.calibrations, flags.seed, flags.jobs}, flags.matches);
-  if (plan.calibrations.empty()) warn_of_shared_robots(plan.scenario, plan.arms);
+  if (plan.calibrations.empty())
+    for (const std::string& remark : experiment::shared_robots(plan.scenario, plan.arms)) warn(remark);
   experiment::check_playable(plan);  // a plan that is refused leaves no log
   const experiment::ExperimentRun run = play(plan, flags);
   if (run.complete) {

@@ -12,38 +12,6 @@
 #include "evaluator/render/json_values.hpp"
 
 namespace trivela::cli {
-namespace {
-
-/// What the rows of a study depend on.
-std::string all_arguments_of(const experiment::PlayPlan& plan, const std::string& name, const std::string& arguments) {
-  return fmt::format("program = {}\nstudy = {}\nseed = {}\nmatches = {}\npossessions = {}\ncalibrations = {}\n{}",
-                     config::software_version(), name, plan.seed, plan.matches, plan.possessions,
-                     plan.calibrations.size(), arguments);
-}
-
-/// A file that is not there yet, in this folder.
-std::string free_name(const std::string& name) {
-  std::string file = name + ".results.db";
-  for (int n = 2; std::filesystem::exists(file); ++n) file = fmt::format("{}-{}.results.db", name, n);
-  return file;
-}
-
-void give(const StudyFlags& flags, const experiment::StudyReport& report) {
-  flags.json ? fmt::print("{}", evaluator::json_text(report.json)) : say(report.text);
-  std::fflush(stdout);
-  if (!flags.csv.empty()) write_file(flags.csv, report.csv);
-  if (!flags.svg.empty()) write_file(flags.svg, report.svg);
-}
-
-void say_part(const StudyFlags& flags) {
-  const auto range = log::range_of(flags.plan.shard, flags.plan.matches);
-  fmt::print(
-      "shard {}: matches {} to {} of {} are in {}. For the report give this command --with and the files of all "
-      "shards, in place of --shard and --results\n",
-      flags.plan.shard->text(), range.begin, range.end - 1, flags.plan.matches, flags.results);
-}
-
-}  // namespace
 
 void StudyFlags::draw_calibrations(const sim::Scenario& scenario) {
   plan.calibrations = cli::draw_calibrations(scenario, base, {calibrations, plan.seed, plan.jobs}, plan.matches);
@@ -69,10 +37,6 @@ std::vector<experiment::Team> draw_calibrations(const sim::Scenario& scenario, c
   return experiment::calibrated_teams(scenario, plan, [&](std::size_t done, std::size_t all) {
     bar.show(static_cast<double>(done), static_cast<double>(all), "calibrations", "calibration");
   });
-}
-
-void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms) {
-  for (const std::string& remark : experiment::shared_robots(scenario, arms)) warn(remark);
 }
 
 void add_play_options(CLI::App& verb, StudyFlags& flags) {
@@ -127,7 +91,10 @@ void StudyFlags::require_writable() const {
 StudyRun::StudyRun(const StudyFlags& flags, const std::string& name, const std::string& arguments)
     : flags_(flags),
       name_(name),
-      results_(flags.results, all_arguments_of(flags.plan, name, arguments), flags.plan.matches) {
+      results_(flags.results, fmt::format("program = {}\nstudy = {}\nseed = {}\nmatches = {}\npossessions = {}\n"
+                                          "calibrations = {}\n{}",
+                                          config::software_version(), name, flags.plan.seed, flags.plan.matches,
+                                          flags.plan.possessions, flags.plan.calibrations.size(), arguments)) {
   for (const std::string& file : flags.with) results_.take_over(file);
   if (const auto known = results_.size(); known > 0 && !flags.json)
     fmt::print(stderr, "trivela: the results of {} matches are known already\n", known);
@@ -146,25 +113,23 @@ experiment::KnownPlay StudyRun::play(const std::vector<experiment::StudyWorld>& 
 
 ExitCode StudyRun::keep() {
   bar_.end();
-  results_.commit();
   const auto matches = results_.size();
-  std::string file = flags_.results;
-  if (matches == 0) {
-    warn("interrupted before a match was played");
-  } else if (!file.empty()) {
-    warn(fmt::format("interrupted; {} matches are in {}: the same command goes on from there", matches, file));
-  } else {
-    file = free_name(name_);
+  std::string file = flags_.results, command = "the same command";
+  if (file.empty() && matches > 0) {
+    file = name_ + ".results";
+    for (int n = 2; std::filesystem::exists(file); ++n) file = fmt::format("{}-{}.results", name_, n);
     results_.save(file);
-    warn(fmt::format("interrupted; {0} matches are in {1}: the same command with --results {1} goes on from there",
-                     matches, file));
+    command += " with --results " + file;
   }
+  results_.commit();
+  warn(matches > 0 ? fmt::format("interrupted; {} matches are in {}: {} goes on from there", matches, file, command)
+                   : "interrupted before a match was played");
   return kFailed;
 }
 
 void StudyRun::finish() {
   bar_.end();
-  results_.commit(!flags_.plan.shard);
+  results_.commit();
 }
 
 ExitCode run_study(StudyFlags flags, const std::function<experiment::Study(const sim::Scenario&)>& make) {
@@ -176,13 +141,26 @@ ExitCode run_study(StudyFlags flags, const std::function<experiment::Study(const
   flags.world.require_effect(played);
   flags.draw_calibrations(scenario);
   const std::vector<experiment::Arm>& arms = study.worlds.front().arms;
-  if (flags.calibrations == 0) warn_of_shared_robots(scenario, arms);
+  if (flags.calibrations == 0)
+    for (const std::string& remark : experiment::shared_robots(scenario, arms)) warn(remark);
   for (const experiment::Arm& arm : arms) check_playable(scenario, arm, flags.plan.possessions);
   StudyRun run{flags, study.name, arguments_of(study)};
   try {
     auto rows = run.play(study.worlds, flags.plan).rows;
     run.finish();
-    flags.plan.shard ? say_part(flags) : give(flags, report_of(study, std::move(rows), flags.played(scenario)));
+    if (const auto& shard = flags.plan.shard) {
+      const auto range = log::range_of(shard, flags.plan.matches);
+      fmt::print(
+          "shard {}: matches {} to {} of {} are in {}. For the report give this command --with and the files of all "
+          "shards, in place of --shard and --results\n",
+          shard->text(), range.begin, range.end - 1, flags.plan.matches, flags.results);
+      return kDone;
+    }
+    const experiment::StudyReport report = report_of(study, std::move(rows), flags.played(scenario));
+    flags.json ? fmt::print("{}", evaluator::json_text(report.json)) : say(report.text);
+    std::fflush(stdout);
+    if (!flags.csv.empty()) write_file(flags.csv, report.csv);
+    if (!flags.svg.empty()) write_file(flags.svg, report.svg);
   } catch (const StudyRun::Interrupted&) {
     return run.keep();
   }

@@ -48,9 +48,6 @@ struct StudyFlags {
 std::vector<experiment::Team> draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base,
                                                 const experiment::RepeatedCalibration& plan, std::uint32_t matches);
 
-/// A warning where an arm has fewer robot files than the scenario's team has robots.
-void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms);
-
 /// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations, --results, --with, --shard, and those
 /// of add_arm_options().
 void add_play_options(CLI::App& verb, StudyFlags& flags);

@@ -8,7 +8,8 @@
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
-#include <string_view>
+
+#include "log/shards/study_results.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -53,15 +54,14 @@ bool is_replaced(const std::filesystem::path& path, const std::string& text,
 }  // namespace
 
 void require_no_database(const std::string& what, const std::filesystem::path& path) {
-  constexpr std::string_view kBegin = "SQLite format 3";
-  std::string begin(kBegin.size(), '\0');
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown)) return;  // what is read of a pipe is gone
-  if (std::ifstream{path, std::ios::binary}.read(begin.data(), static_cast<std::streamsize>(begin.size())) &&
-      begin == kBegin)
-    throw std::runtime_error{
-        fmt::format("{} {} holds a database, such as a match log, and is never overwritten; choose another file", what,
-                    path.string())};
+  std::string begin(log::kStudyResultsBegin.size(), '\0');
+  std::ifstream{path, std::ios::binary}.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  const bool study = begin == log::kStudyResultsBegin;
+  if (study || begin.starts_with("SQLite format 3"))
+    throw std::runtime_error{fmt::format("{} {} holds {}, and is never overwritten; choose another file", what,
+                                         path.string(), study ? "study results" : "a database, such as a match log")};
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text) {

@@ -6,7 +6,8 @@
 
 namespace trivela::evaluator {
 
-/// Throws std::runtime_error naming `what` and the path, which may be a link, where a file there begins as SQLite's do.
+/// Throws std::runtime_error naming `what` and the path, which may be a link, where a file there is one of
+/// SQLite, or has study results.
 void require_no_database(const std::string& what, const std::filesystem::path& path);
 
 /// Writes a text file again. Throws std::runtime_error naming it, and the reason, where that fails, and what

@@ -49,22 +49,8 @@ std::string text_of(const sim::Scenario& scenario, const Arm& arm, const PlayPla
 struct Place {
   const StudyWorld& world;
   std::size_t arm;
-  std::size_t kept;
+  std::string kept;
 };
-
-MatchTally play_one(const Place& place, const PlayPlan& plan, std::uint32_t match) {
-  Arm arm = place.world.arms[place.arm];
-  const std::size_t calibration = plan.calibrations.empty() ? 0 : match % plan.calibrations.size();
-  if (!plan.calibrations.empty() && !arm.own_robots) arm.robots = plan.calibrations[calibration];
-  return tally_of(play_match(place.world.scenario, arm, plan.seed, match, plan.possessions),
-                  static_cast<std::uint32_t>(calibration));
-}
-
-StudyRow row_of(const Place& place, const std::map<std::uint32_t, MatchTally>& known, std::uint32_t matches) {
-  StudyRow row{place.world.labels.empty() ? RowLabels{} : place.world.labels[place.arm], ArmTally(matches)};
-  for (const auto& [match, tally] : known) row.matches.at(match) = tally;
-  return row;
-}
 
 }  // namespace
 
@@ -76,8 +62,7 @@ KnownPlay play_missing(const std::vector<StudyWorld>& worlds, const PlayPlan& pl
   for (const StudyWorld& world : worlds) {
     std::vector<std::uint32_t> first;  // of the results' arms, one may be there twice
     for (std::size_t i = 0; i < world.arms.size(); ++i) {
-      const Arm& arm = world.arms[i];
-      const std::size_t kept = results.arm(text_of(world.scenario, arm, plan), world.what + ": " + arm.name);
+      const std::string kept = log::StudyResults::arm(text_of(world.scenario, world.arms[i], plan));
       if (std::ranges::find(places, kept, &Place::kept) == places.end())
         first.push_back(static_cast<std::uint32_t>(places.size()));
       places.push_back({world, i, kept});
@@ -93,7 +78,11 @@ KnownPlay play_missing(const std::vector<StudyWorld>& worlds, const PlayPlan& pl
   in_threads(missing.size(), plan.jobs, [&](std::size_t i) {
     const auto match = missing[i].second;
     const Place& place = places[missing[i].first];
-    const MatchTally tally = play_one(place, plan, match);
+    Arm arm = place.world.arms[place.arm];
+    const std::size_t calibration = plan.calibrations.empty() ? 0 : match % plan.calibrations.size();
+    if (!plan.calibrations.empty() && !arm.own_robots) arm.robots = plan.calibrations[calibration];
+    const MatchTally tally = tally_of(play_match(place.world.scenario, arm, plan.seed, match, plan.possessions),
+                                      static_cast<std::uint32_t>(calibration));
     const std::lock_guard lock{one_at_a_time};
     if (std::exchange(stopped, true)) return;
     results.add(place.kept, match, tally);
@@ -103,7 +92,9 @@ KnownPlay play_missing(const std::vector<StudyWorld>& worlds, const PlayPlan& pl
   KnownPlay play{.rows = {}, .whole = true};
   for (const Place& place : places) {
     const auto& known = results.matches_of(place.kept);
-    play.rows.push_back(row_of(place, known, plan.matches));
+    const auto& labels = place.world.labels;
+    play.rows.push_back({labels.empty() ? RowLabels{} : labels[place.arm], ArmTally(plan.matches)});
+    for (const auto& [match, tally] : known) play.rows.back().matches.at(match) = tally;
     play.whole = play.whole && known.size() == plan.matches;
   }
   return play;

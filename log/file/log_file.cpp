@@ -200,7 +200,7 @@ void LogFile::open() {
   database_->exec("PRAGMA temp_store = MEMORY; PRAGMA cell_size_check = ON; PRAGMA ignore_check_constraints = ON;");
   const int application_id = database_->execAndGet("PRAGMA application_id").getInt();
   const int version = database_->execAndGet("PRAGMA user_version").getInt();
-  for (const LogKind& other : {kMatchLog, kScanRecord, kStudyResults}) {
+  for (const LogKind& other : {kMatchLog, kScanRecord}) {
     if (application_id != other.application_id || application_id == kind_.application_id) continue;
     throw NoSuchLog(fmt::format("{} is not a {} but a {}", path_, kind_.name, other.name));
   }

@@ -11,7 +11,6 @@
 #include "log/schema/row.hpp"
 #include "log/schema/scan_schema.sql.hpp"
 #include "log/schema/schema.sql.hpp"
-#include "log/schema/study_schema.sql.hpp"
 
 namespace trivela::log {
 
@@ -41,7 +40,6 @@ std::string own_kicks() {
 
 std::string_view schema_of(const LogKind& kind) {
   if (kind.application_id == kScanRecord.application_id) return kScanSchemaSql;
-  if (kind.application_id == kStudyResults.application_id) return kStudySchemaSql;
   return kSchemaSql;
 }
 
@@ -81,17 +79,6 @@ void create_tables(SQLite::Database& database) {
                             kMatchLog.version));
   database.exec(std::string(kSchemaSql));
   database.exec("ANALYZE");  // its table now, while the schema lies in front: of a file that was cut the schema is read
-}
-
-void create_study(SQLite::Database& database, const std::string& arguments, std::int64_t matches) {
-  database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kStudyResults.application_id,
-                            kStudyResults.version));
-  database.exec(kStudySchemaSql);
-  SQLite::Statement insert(database, "INSERT INTO studies VALUES (?, ?, ?, 0)");
-  insert.bind(1, sha256(arguments));
-  insert.bind(2, arguments);
-  insert.bind(3, matches);
-  insert.exec();
 }
 
 namespace {

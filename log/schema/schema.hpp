@@ -19,9 +19,8 @@ struct LogKind {
   int application_id = 0;    ///< shown by file(1)
   int version = 1;           ///< PRAGMA user_version
 };
-inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 1};                ///< "KICK"
-inline constexpr LogKind kScanRecord{"scan record", "a recorded scan", 0x5343414E, 1};             ///< "SCAN"
-inline constexpr LogKind kStudyResults{"results file", "a study that was played", 0x54414C59, 1};  ///< "TALY"
+inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 1};     ///< "KICK"
+inline constexpr LogKind kScanRecord{"scan record", "a recorded scan", 0x5343414E, 1};  ///< "SCAN"
 
 struct Column {
   std::string name;
@@ -38,10 +37,6 @@ void create_reading_views(SQLite::Database& database);
 
 /// Creates the tables of a match log. Throws SQLite::Exception.
 void create_tables(SQLite::Database& database);
-
-/// Creates the tables of study results (log/shards/study_results.hpp), begun with `arguments`. Throws
-/// SQLite::Exception.
-void create_study(SQLite::Database& database, const std::string& arguments, std::int64_t matches);
 
 /// Inserts a session's rows, its texts where they are not there yet; `uuid` must be set. `closed_t_ns`: end of the
 /// recording, none: it goes on. Throws SQLite::Exception.

@@ -32,6 +32,18 @@ struct Part {
   std::int64_t done = 0;  // matches
 };
 
+/// None: the arguments are those of a whole experiment.
+std::optional<ShardStamp> stamp_of(const std::string& arguments) {
+  const auto at = arguments.rfind(kMark);
+  if (at == std::string::npos) return std::nullopt;
+  ShardStamp stamp{arguments.substr(0, at), {}, 0};
+  std::istringstream numbers{arguments.substr(at + kMark.size())};
+  numbers >> stamp.shard.number >> stamp.shard.count >> stamp.matches;
+  const auto [number, count] = stamp.shard;
+  const bool holds = number >= 1 && number <= count && count <= stamp.matches && stamped_arguments(stamp) == arguments;
+  return holds ? std::optional{stamp} : std::nullopt;
+}
+
 /// None: another log.
 std::optional<Part> part_in(const fs::path& path, Check check) {
   std::vector<Part> found;
@@ -46,7 +58,7 @@ std::optional<Part> part_in(const fs::path& path, Check check) {
 
 /// The sentence that refuses a file.
 std::runtime_error refused_shard(const fs::path& path, const std::string& why) {
-  return std::runtime_error(fmt::format("{}: {}", path.string(), why));
+  return std::runtime_error(path.string() + ": " + why);
 }
 
 Part read_part(const fs::path& path) {
@@ -118,17 +130,6 @@ MatchRange range_of(const std::optional<Shard>& shard, std::uint32_t matches) {
 
 std::string stamped_arguments(const ShardStamp& stamp) {
   return fmt::format("{}{}{} {} {}\n", stamp.arguments, kMark, stamp.shard.number, stamp.shard.count, stamp.matches);
-}
-
-std::optional<ShardStamp> stamp_of(const std::string& arguments) {
-  const auto at = arguments.rfind(kMark);
-  if (at == std::string::npos) return std::nullopt;
-  ShardStamp stamp{arguments.substr(0, at), {}, 0};
-  std::istringstream numbers{arguments.substr(at + kMark.size())};
-  numbers >> stamp.shard.number >> stamp.shard.count >> stamp.matches;
-  const auto [number, count] = stamp.shard;
-  const bool holds = number >= 1 && number <= count && count <= stamp.matches && stamped_arguments(stamp) == arguments;
-  return holds ? std::optional{stamp} : std::nullopt;
 }
 
 bool any_is_shard(const std::vector<fs::path>& files) {

@@ -40,9 +40,6 @@ struct ShardStamp {
 /// The stamp as arguments of a log: those of the whole, and a last line that says which part of it this is.
 std::string stamped_arguments(const ShardStamp& stamp);
 
-/// None: the arguments are those of a whole experiment.
-std::optional<ShardStamp> stamp_of(const std::string& arguments);
-
 /// What the shards of an experiment were made into.
 struct MergedShards {
   std::size_t shards = 0;

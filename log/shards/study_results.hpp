@@ -1,15 +1,12 @@
 #pragma once
 
-#include <SQLiteCpp/Database.h>
-
 #include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 namespace trivela::log {
@@ -28,7 +25,7 @@ struct MatchTally {
   bool operator==(const MatchTally&) const = default;
 };
 
-/// A count of a match by its name, which is its column's in a results file. They are in the order of the columns.
+/// A count of a match by its name, in the order of a results file.
 struct TallyField {
   const char* name;
   std::int64_t MatchTally::*field;
@@ -44,23 +41,22 @@ inline constexpr std::array kTallyFields{TallyField{"opportunities", &MatchTally
 /// An arm's matches, in the order of their numbers.
 using ArmTally = std::vector<MatchTally>;
 
+/// Matches of an arm that are known, by their number.
+using MatchesByNumber = std::map<std::uint32_t, MatchTally>;
+
+/// The first line of a results file. Then come the arguments, "= " before each line, and a line a match: arm, match,
+/// calibration, and the counts in the order of kTallyFields.
+inline constexpr std::string_view kStudyResultsBegin = "trivela study results 1\n";
+
 /// What a study, or a shard of it, has played so far, match by match: no match is played twice, however often the run
-/// is stopped. The same arms and matches make the same rows, in any order. For one thread and one process at a time:
+/// is stopped. The same arms and matches make the same lines, in any order. For one thread and one process at a time:
 /// the file is locked.
 class StudyResults {
  public:
-  /// What is known of an arm.
-  struct Arm {
-    std::int64_t arm_id = 0;
-    std::string sha256;
-    std::string name;
-    std::map<std::uint32_t, MatchTally> matches{};
-  };
-
   /// Makes the file, or goes on with it; without a path the results are in memory until save(). `arguments`: everything
-  /// that the rows depend on, as text; `matches` of each arm, of the whole study. Throws FileTaken naming the file
-  /// where it is something else, of other arguments, or in use.
-  StudyResults(const std::filesystem::path& path, const std::string& arguments, std::uint32_t matches);
+  /// that the matches depend on, as lines of text. Throws FileTaken naming the file where it is something else, of
+  /// other arguments, or in use, std::runtime_error where it cannot be read or written.
+  StudyResults(const std::filesystem::path& path, const std::string& arguments);
   ~StudyResults();
   StudyResults(const StudyResults&) = delete;
   StudyResults& operator=(const StudyResults&) = delete;
@@ -69,35 +65,31 @@ class StudyResults {
   /// study, cannot be read, or says something else of a match.
   void take_over(const std::filesystem::path& path);
 
-  /// The place of an arm, by `text`, all that its matches depend on but their number; `name` is for people.
-  std::size_t arm(const std::string& text, const std::string& name);
+  /// The name of an arm in the file, by `text`, all that its matches depend on but their number.
+  static std::string arm(const std::string& text);
 
-  const std::map<std::uint32_t, MatchTally>& matches_of(std::size_t arm) const { return arms_[arm].matches; }
+  const MatchesByNumber& matches_of(const std::string& arm) { return arms_[arm]; }
 
-  /// A match that matches_of() does not have. Written within half a second of the first one that is not, if more are
-  /// added. Throws std::runtime_error naming the file where it cannot be written.
-  void add(std::size_t arm, std::uint32_t match_id, const MatchTally& tally);
+  /// A match that matches_of() does not have. Written half a second after what was written last, if more are added.
+  /// Throws std::runtime_error naming the file where it cannot be written.
+  void add(const std::string& arm, std::uint32_t match_id, const MatchTally& tally);
 
   /// Matches of arms.
-  std::int64_t size() const;
+  std::size_t size() const;
 
-  /// What was added is in the file. `finished`: all matches are there. Throws as add().
-  void commit(bool finished = false);
+  /// What was added is in the file, and on the disk. Throws as add().
+  void commit();
 
-  /// Writes results in memory to a new file, and goes on there.
+  /// Writes results in memory to a new file, and goes on there. Throws as the constructor.
   void save(const std::filesystem::path& path);
 
  private:
-  std::size_t place_of(Arm arm);
-
   std::filesystem::path path_;
   std::string arguments_;
-  std::uint32_t study_matches_;
-  std::unique_ptr<SQLite::Database> database_;                    // none: in memory alone
-  std::vector<Arm> arms_;                                         // by place
-  std::size_t arms_written_ = 0;                                  // the first ones
-  std::vector<std::pair<std::size_t, std::uint32_t>> unwritten_;  // matches by place and number
-  std::chrono::steady_clock::time_point waits_since_;             // the first of them
+  int file_ = -1;  // none: in memory alone
+  std::map<std::string, MatchesByNumber> arms_;
+  std::string unwritten_;  // whole lines
+  std::chrono::steady_clock::time_point written_at_{};
 };
 
 }  // namespace trivela::log

@@ -14,7 +14,7 @@ inline std::vector<ArmTally> tallies_of(const std::vector<StudyRow>& rows) {
 inline std::vector<ArmTally> play_arms(
     const sim::Scenario& scenario, const std::vector<Arm>& arms, const PlayPlan& plan,
     const std::function<void(std::size_t, std::size_t)>& progress = [](std::size_t, std::size_t) {}) {
-  log::StudyResults results{"", "a test", plan.matches};
+  log::StudyResults results{"", "a test\n"};
   const auto told = [&](std::size_t done, std::size_t all, const std::string&) { progress(done, all); };
   return tallies_of(play_missing({{"test", scenario, arms}}, plan, results, told).rows);
 }

@@ -1,8 +1,9 @@
 // The engine of every study: what is known is not played again, and parts make the rows of one run.
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <regex>
+#include <sstream>
 
 #include "experiment/run/arms.hpp"
 #include "experiment/study/studies.hpp"
@@ -55,20 +56,26 @@ PlayPlan shard_of(std::uint32_t number, std::uint32_t count) {
   return plan;
 }
 
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream{path}.rdbuf();
+  return text.str();
+}
+
 /// The matches of one run without a file.
 std::vector<ArmTally> of_one_run() {
-  StudyResults results{"", kArguments, kPlan.matches};
+  StudyResults results{"", kArguments};
   return play_world(results).arms;
 }
 
 TEST(StudyPlay, TheMatchesOfAFileAreNotPlayedAgain) {
   const tests::Folder folder;
   {
-    StudyResults results{folder / "a.db", kArguments, 4};
+    StudyResults results{folder / "a.db", kArguments};
     EXPECT_EQ(play_world(results, shard_of(1, 2)).missing, 4u);
   }
-  StudyResults results{folder / "a.db", kArguments, 4};
-  EXPECT_EQ(results.size(), 4);
+  StudyResults results{folder / "a.db", kArguments};
+  EXPECT_EQ(results.size(), 4U);
   const Played rest = play_world(results);
   EXPECT_EQ(rest.missing, 4u);
   EXPECT_TRUE(rest.whole);
@@ -77,7 +84,7 @@ TEST(StudyPlay, TheMatchesOfAFileAreNotPlayedAgain) {
 }
 
 TEST(StudyPlay, AShardPlaysItsOwnMatchesAndIsNotTheWhole) {
-  StudyResults results{"", kArguments, 4};
+  StudyResults results{"", kArguments};
   const Played part = play_world(results, shard_of(2, 3));
   EXPECT_EQ(part.missing, 2u);
   EXPECT_FALSE(part.whole);
@@ -93,10 +100,10 @@ TEST(StudyPlay, AShardPlaysItsOwnMatchesAndIsNotTheWhole) {
 TEST(StudyPlay, ShardsInAnyOrderAreTheRowsOfOneRun) {
   const tests::Folder folder;
   for (const std::uint32_t shard : {1u, 2u}) {
-    StudyResults results{folder / std::to_string(shard), kArguments, 4};
+    StudyResults results{folder / std::to_string(shard), kArguments};
     play_world(results, shard_of(shard, 2));
   }
-  StudyResults all{"", kArguments, 4};
+  StudyResults all{"", kArguments};
   for (const char* const shard : {"2", "1", "2"}) all.take_over(folder / shard);
   const Played put_together = play_world(all);
   EXPECT_EQ(put_together.missing, 0u);
@@ -107,18 +114,18 @@ TEST(StudyPlay, ShardsInAnyOrderAreTheRowsOfOneRun) {
 TEST(StudyPlay, ResultsInMemoryAreSavedAsAFileThatGoesOn) {
   const tests::Folder folder;
   {
-    StudyResults results{"", kArguments, 4};
+    StudyResults results{"", kArguments};
     play_world(results, shard_of(1, 2));
     results.save(folder / "a.db");
   }
-  StudyResults results{folder / "a.db", kArguments, 4};
+  StudyResults results{folder / "a.db", kArguments};
   EXPECT_EQ(play_world(results).missing, 4u);
 }
 
 TEST(StudyPlay, AnArmThatIsThereTwiceIsPlayedOnceAndCountsTwice) {
   std::vector<Arm> arms = stopped_and_moving();
   arms.push_back(arms.front());
-  StudyResults results{"", kArguments, 4};
+  StudyResults results{"", kArguments};
   const Played once = play_world(results, kPlan, arms);
   EXPECT_EQ(once.missing, 8u);
   EXPECT_EQ(once.arms[2], once.arms[0]);
@@ -132,7 +139,7 @@ TEST(StudyPlay, WorldsArePlayedTogetherAndTheirRowsComeInTheirOrder) {
   const std::vector<StudyWorld> worlds{{"open", {}, {stopped_and_moving()[0]}, {first}},
                                        {"kept", kept, {stopped_and_moving()[0]}, {second}},
                                        {"open again", {}, {stopped_and_moving()[0]}, {first}}};
-  StudyResults results{"", kArguments, 4};
+  StudyResults results{"", kArguments};
   std::vector<std::string> told;
   const KnownPlay known = play_missing(
       worlds, kPlan, results, [&](std::size_t, std::size_t, const std::string& what) { told.push_back(what); });
@@ -144,7 +151,7 @@ TEST(StudyPlay, WorldsArePlayedTogetherAndTheirRowsComeInTheirOrder) {
 }
 
 TEST(StudyPlay, NoMatchStandsForOneOfAnotherSeedLengthOrWorld) {
-  StudyResults results{"", kArguments, 4};
+  StudyResults results{"", kArguments};
   play_world(results);
   PlayPlan other = kPlan;
   other.seed = 4;
@@ -160,7 +167,7 @@ TEST(StudyPlay, NoMatchStandsForOneOfAnotherSeedLengthOrWorld) {
 TEST(StudyPlay, OtherCalibrationsAreOtherMatchesButForAnArmWithRobotsOfItsOwn) {
   std::vector<Arm> arms = stopped_and_moving();
   arms[1].own_robots = true;
-  StudyResults results{"", kArguments, 4};
+  StudyResults results{"", kArguments};
   play_world(results, kPlan, arms);
   PlayPlan calibrated = kPlan;
   config::Robot late;
@@ -176,46 +183,64 @@ TEST(StudyPlay, WhereItIsStoppedTheFileHasWhatWasReportedAndNoMore) {
   const tests::Folder folder;
   struct Enough {};
   {
-    StudyResults results{folder / "a.db", kArguments, 4};
+    StudyResults results{folder / "a.db", kArguments};
     const auto stop = [](std::size_t done, std::size_t, const std::string&) {
       if (done == 3) throw Enough{};
     };
     EXPECT_THROW(play_missing({{"test", {}, stopped_and_moving()}}, kPlan, results, stop), Enough);
     results.commit();
   }
-  StudyResults results{folder / "a.db", kArguments, 4};
-  EXPECT_EQ(results.size(), 3);
+  StudyResults results{folder / "a.db", kArguments};
+  EXPECT_EQ(results.size(), 3U);
   EXPECT_EQ(play_world(results).arms, of_one_run());
 }
 
 TEST(StudyPlay, AFileOfOtherArgumentsIsRefusedWithTheLineThatDiffers) {
   const tests::Folder folder;
-  { const StudyResults begun{folder / "a.db", "seed = 3\npossessions = 4\n", 4}; }
-  EXPECT_THAT([&] { StudyResults(folder / "a.db", "seed = 3\npossessions = 5\n", 4); },
+  { const StudyResults begun{folder / "a.db", "seed = 3\npossessions = 4\n"}; }
+  EXPECT_THAT([&] { StudyResults(folder / "a.db", "seed = 3\npossessions = 5\n"); },
               ThrowsMessage<log::FileTaken>(
                   AllOf(HasSubstr("a.db"), HasSubstr("possessions = 4"), HasSubstr("possessions = 5"))));
   std::ofstream{folder / "text.db"} << "kick, outcome\n1, goal\n, and so on for more than a page of a database\n";
-  EXPECT_THAT([&] { StudyResults(folder / "text.db", kArguments, 4); },
+  EXPECT_THAT([&] { StudyResults(folder / "text.db", kArguments); },
               ThrowsMessage<log::FileTaken>(HasSubstr("text.db: is there already and has no study results")));
+}
+
+TEST(StudyPlay, AFileThatWasCutOffGoesOnFromItsLastWholeLine) {
+  const tests::Folder folder;
+  {
+    StudyResults results{folder / "a.db", kArguments};
+    play_world(results);
+  }
+  const std::string whole = text_of(folder / "a.db");
+  for (const auto& [bytes, missing] : {std::pair{whole.size() - 3, 1U}, std::pair{std::size_t{9}, 8U}}) {
+    std::ofstream{folder / "a.db"} << whole.substr(0, bytes);
+    StudyResults results{folder / "a.db", kArguments};
+    EXPECT_EQ(play_world(results).missing, missing);
+    EXPECT_EQ(text_of(folder / "a.db").size(), whole.size());
+  }
+  std::ofstream{folder / "a.db"} << whole << "no match\n";
+  EXPECT_THAT([&] { StudyResults(folder / "a.db", kArguments); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("a.db: is damaged: no match")));
 }
 
 TEST(StudyPlay, AForeignShardAndOneThatSaysSomethingElseLeaveTheResultsAsTheyAre) {
   const tests::Folder folder;
   for (const auto& [name, arguments] : {std::pair{"ours.db", kArguments}, std::pair{"foreign.db", "seed = 4\n"}}) {
-    StudyResults results{folder / name, arguments, 4};
+    StudyResults results{folder / name, arguments};
     play_world(results, shard_of(1, 2));
-    results.commit(true);
+    results.commit();
   }
-  std::filesystem::copy_file(folder / "ours.db", folder / "changed.db");
-  SQLite::Database{(folder / "changed.db").string(), SQLite::OPEN_READWRITE}.exec(
-      "UPDATE tallies SET kicks = 77 WHERE match_id = 1; UPDATE tallies SET match_id = 3 WHERE match_id = 0");
-  StudyResults all{"", kArguments, 4};
+  const std::string more =
+      std::regex_replace(text_of(folder / "ours.db"), std::regex{"\n(\\w{16} 1 \\d+ \\d+) "}, "\n$1 7");
+  std::ofstream{folder / "changed.db"} << std::regex_replace(more, std::regex{"\n(\\w{16}) 0 "}, "\n$1 3 ");
+  StudyResults all{"", kArguments};
   all.take_over(folder / "ours.db");
   EXPECT_THAT([&] { all.take_over(folder / "foreign.db"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("foreign.db: has results of another study")));
   EXPECT_THAT([&] { all.take_over(folder / "changed.db"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("changed.db: says something else of match 1")));
-  EXPECT_EQ(all.size(), 4) << "match 3 of the changed one is not taken either";
+  EXPECT_EQ(all.size(), 4U) << "match 3 of the changed one is not taken either";
 }
 
 TEST(StudyPlay, ArgumentsOfAStudyNameWhatEachWorldHasOfItsOwn) {
