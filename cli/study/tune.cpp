@@ -66,12 +66,10 @@ std::vector<experiment::ArmTally> play(StudyRun& run, experiment::StudyWorld wor
 
 ExitCode say_step(StudyRun& run, const TuneFlags& flags, bool ended) {
   run.finish();
-  const std::string shard = flags.plan.shard->text();
-  say(ended ? fmt::format(
-                  "shard {}: the search has ended; this command with --out in place of --shard gives what it found\n",
-                  shard)
-            : fmt::format("shard {}: its part of this step is in {}; go on --with the results of all shards\n", shard,
-                          flags.results));
+  say(fmt::format(
+      "shard {}: {}\n", flags.plan.shard->text(),
+      ended ? "the search has ended; this command with --out in place of --shard gives what it found"
+            : fmt::format("its part of this step is in {}; go on --with the results of all shards", flags.results)));
   return ended ? kDone : kDoneWithLoss;
 }
 
@@ -105,17 +103,13 @@ ExitCode search(StudyRun& run, experiment::Tuning& tuning, experiment::StudyWorl
   return run.keep();
 }
 
-void check(const TuneFlags& flags) {
-  flags.require_writable();
-  require_writable("--out", flags.out);
-  if (flags.plan.shard ? !flags.out.empty() : flags.out.empty())
-    throw UsageError{flags.plan.shard ? "--out and --shard: a part of the matches finds no settings"
-                                      : "--out is required"};
-}
-
 int study_tune(const TuneFlags& asked) {
   TuneFlags flags = asked;
-  check(flags);
+  flags.require_writable();
+  require_writable("--out", flags.out);
+  if (flags.plan.shard && !flags.out.empty())
+    throw UsageError{"--out and --shard: a part of the matches finds no settings"};
+  if (!flags.plan.shard && flags.out.empty()) throw UsageError{"--out is required"};
   const sim::Scenario scenario = flags.world.load();
   flags.world.require_effect({scenario});
   const experiment::Arm arm = experiment::arms_of(flags.policy, flags.base).front();

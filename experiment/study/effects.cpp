@@ -62,7 +62,7 @@ evaluator::stats::Counts counts_of(const MatchTally& tally, Measure measure) {
   return {tally.*share.inside, tally.*share.of - (measure == Measure::kUnblocked ? tally.blocked : 0)};
 }
 
-Effect contrast(std::span<const Term> terms, Measure measure) {
+Effect contrast(const std::vector<Term>& terms, Measure measure) {
   Effect effect;
   std::vector<double> influences;
   bool in_matches = true, varies = false;
@@ -84,13 +84,11 @@ Effect contrast(std::span<const Term> terms, Measure measure) {
 }
 
 Effect difference(const ArmTally& newer, const ArmTally& older, Measure measure) {
-  const Term terms[] = {{&newer, 1.0}, {&older, -1.0}};
-  return contrast(terms, measure);
+  return contrast({{&newer, 1.0}, {&older, -1.0}}, measure);
 }
 
 Effect share_of(const ArmTally& matches, Measure measure) {
-  const Term alone{&matches, 1.0};
-  Effect share = contrast({&alone, 1}, measure);
+  Effect share = contrast({{&matches, 1.0}}, measure);
   if (!in_two_matches(matches, measure)) return share;
   if (share.value == 0.0 || share.value == 1.0) {
     std::vector<evaluator::stats::Counts> counts;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -53,7 +52,7 @@ struct Term {
 /// which all arms have in common (cluster_variance()): u_m = sum_a w_a (x_am - p_a n_am) / N_a. An arm without a kick
 /// has no efficiency; an arm with kicks in one match only has no interval, since one match does not say how far matches
 /// differ. Nor have arms of which each has all or nothing on target.
-Effect contrast(std::span<const Term> terms, Measure measure);
+Effect contrast(const std::vector<Term>& terms, Measure measure);
 
 /// The share of `newer` less that of `older`: contrast().
 Effect difference(const ArmTally& newer, const ArmTally& older, Measure measure);

@@ -41,13 +41,6 @@ constexpr CellEffect kEffects[]{
     {"calibration_x_prediction", 1.0, "00000+-00000-+", "prediction with the new table - prediction with the old one"},
     {"gain", 3.0, "---0000000+++0", "new table and moving - old one and stopped, over laws: calibration + motion"}};
 
-Effect effect_of(const CellEffect& effect, const std::vector<StudyRow>& rows, Measure measure) {
-  std::vector<Term> terms;
-  for (std::size_t i = 0; i < kCells; ++i)
-    if (effect.signs[i] != '0') terms.push_back({&rows[i].matches, (effect.signs[i] == '+' ? 1.0 : -1.0) / effect.of});
-  return contrast(terms, measure);
-}
-
 /// Both sides of the paper's comparison under one assumption.
 struct Pair {
   const StudyRow& older;
@@ -84,8 +77,11 @@ void add_effects(StudyAnswer& answer, const std::vector<StudyRow>& rows, Measure
   std::vector<std::vector<std::string>> table{{"effect [points]", "efficiency", "on target/opp."}};
   std::string legend;
   for (const CellEffect& effect : kEffects) {
-    const Effect of_kicks = effect_of(effect, rows, efficiency);
-    const Effect of_opportunities = effect_of(effect, rows, Measure::kPerOpportunity);
+    std::vector<Term> terms;
+    for (std::size_t i = 0; i < kCells; ++i)
+      if (effect.signs[i] != '0')
+        terms.push_back({&rows[i].matches, (effect.signs[i] == '+' ? 1.0 : -1.0) / effect.of});
+    const Effect of_kicks = contrast(terms, efficiency), of_opportunities = contrast(terms, Measure::kPerOpportunity);
     table.push_back({effect.key, points_text(of_kicks), points_text(of_opportunities)});
     legend += fmt::format("  {}: {}\n", effect.key, effect.what);
     answer.more["effects"].push_back({{"effect", effect.key},

@@ -47,34 +47,23 @@ UncertainInput input_in(const config::Row& row) {
   return input;
 }
 
-/// Gives rows behind the first world's, `arms` a world, what they change of its differences. The largest change by each
-/// input, without its sign; beyond all that of none.
-std::map<std::string, double> compare(std::vector<StudyRow>& rows, std::size_t arms, Measure measure) {
-  std::map<std::string, double> largest{{"", std::numeric_limits<double>::infinity()}};
-  for (std::size_t i = arms; i < rows.size(); ++i) {
-    const std::size_t arm = i % arms;
-    if (arm == 0) continue;
-    const Term terms[] = {{&rows[i].matches, 1.0},
-                          {&rows[i - 1].matches, -1.0},
-                          {&rows[arm].matches, -1.0},
-                          {&rows[arm - 1].matches, 1.0}};
-    rows[i].changes = {contrast(terms, measure)};
-    double& change = largest[rows[i].label("input")];
-    change = std::max(change, std::abs(rows[i].changes[0].value));
-  }
-  return largest;
-}
-
-Json value_of_text(const std::string& text) {
-  const Json number = Json::parse(text, nullptr, false);
-  return number.is_discarded() ? Json(text) : number;
-}
-
 StudyAnswer answer_of(const Study& study, std::vector<StudyRow>& rows, Measure measure,
                       std::vector<UncertainInput> inputs) {
   const StudyWorld& usual = study.worlds.front();
   const std::size_t arms = usual.arms.size();
-  auto largest = compare(rows, arms, measure);
+  // The largest change by each input, without its sign; beyond all that of none.
+  std::map<std::string, double> largest{{"", std::numeric_limits<double>::infinity()}};
+  for (std::size_t i = arms; i < rows.size(); ++i) {
+    const std::size_t arm = i % arms;
+    if (arm == 0) continue;
+    rows[i].changes = {contrast({{&rows[i].matches, 1.0},
+                                 {&rows[i - 1].matches, -1.0},
+                                 {&rows[arm].matches, -1.0},
+                                 {&rows[arm - 1].matches, 1.0}},
+                                measure)};
+    double& change = largest[rows[i].label("input")];
+    change = std::max(change, std::abs(rows[i].changes[0].value));
+  }
   std::ranges::stable_sort(inputs, std::ranges::greater{}, [&](const auto& input) { return largest[input.key]; });
   std::ranges::stable_sort(rows, std::ranges::greater{}, [&](const auto& row) { return largest[row.label("input")]; });
   const bool goals = measure == Measure::kGoals;
@@ -87,15 +76,16 @@ StudyAnswer answer_of(const Study& study, std::vector<StudyRow>& rows, Measure m
     const std::string name = fmt::format("{} - {}", rows[i].label("arm"), rows[i - 1].label("arm"));
     const Effect effect = difference(rows[i].matches, rows[i - 1].matches, measure);
     answer.text += fmt::format("  {}: {}\n", name, points_text(effect));
-    Json line = json_of(effect);
-    line["headline"] = name;
-    answer.more["headlines"].push_back(std::move(line));
+    answer.more["headlines"].push_back(json_of(effect));
+    answer.more["headlines"].back()["headline"] = name;
   }
   answer.text += "Instead of the values above it is:\n";
   for (const UncertainInput& input : inputs) {
     const std::string value = value_of({usual.scenario, usual.arms.front().settings}, input.key);
     answer.text += fmt::format("  {} = {} ({})\n", input.key, value, input.why);
-    answer.more["inputs"].push_back({{"input", input.key}, {"value", value_of_text(value)}, {"why", input.why}});
+    const Json number = Json::parse(value, nullptr, false);
+    answer.more["inputs"].push_back(
+        {{"input", input.key}, {"value", number.is_discarded() ? Json(value) : number}, {"why", input.why}});
   }
   return answer;
 }

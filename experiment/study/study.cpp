@@ -18,12 +18,6 @@ namespace {
 /// The counts of a row; what is true of all kicks is said where the labels are doubted.
 constexpr auto kCounts = std::span{log::kTallyFields}.first<6>();
 
-std::string csv_cell(double number) { return std::isfinite(number) ? fmt::format("{:.6f}", number) : ""; }
-
-std::string csv_cells(const Effect& effect) {
-  return fmt::format("{},{},{},", csv_cell(effect.value), csv_cell(effect.ci.lo), csv_cell(effect.ci.hi));
-}
-
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string cell;
@@ -36,16 +30,6 @@ std::string plain_share(const StudyRow& row, Measure measure) {
   const auto counts = counts_of(total_of(row.matches), measure);
   if (counts.n == 0) return "-";
   return fmt::format("{:.1f}", 100.0 * static_cast<double>(counts.inside) / static_cast<double>(counts.n));
-}
-
-/// "SIMULATED ... 400 matches of 45 opportunities, the same for every WHOM; ..."
-std::string heading(const StudyPlayed& played, const std::string& whom) {
-  const std::string intervals =
-      played.calibrations == 0 ? "95 % intervals by match, for these robot files alone (--calibrations)"
-                               : fmt::format("95 % intervals by match and by {} calibrations", played.calibrations);
-  return fmt::format("{}{} matches of {} opportunities, the same for every {}; {}, seed {}; {}.\n\n",
-                     evaluator::kSimulated, played.matches, played.possessions, whom, played.scenario, played.seed,
-                     intervals);
 }
 
 /// Labels, kicks, kicks and shots on target per opportunity, efficiency, goals where there is a keeper, blocked of
@@ -98,7 +82,9 @@ std::string csv_of(const Study& study, const std::vector<StudyRow>& rows, const 
   for (const StudyRow& row : rows) {
     for (const RowLabel& label : row.labels) csv += quoted(label.text) + ',';
     for (const log::TallyField& count : kCounts) csv += fmt::format("{},", total_of(row.matches).*count.field);
-    for (const auto& [key, effect] : numbers_of(study, row, played.efficiency)) csv += csv_cells(effect);
+    for (const auto& [key, effect] : numbers_of(study, row, played.efficiency))
+      for (const double number : {effect.value, effect.ci.lo, effect.ci.hi})
+        csv += std::isfinite(number) ? fmt::format("{:.6f},", number) : ",";
     for (std::size_t i = row.changes.size(); i < study.changes.size(); ++i) csv += ",,,";
     csv += "1\n";
   }
@@ -139,10 +125,16 @@ const std::string& StudyRow::label(const std::string& key) const {
 
 StudyReport report_of(const Study& study, std::vector<StudyRow> rows, const StudyPlayed& played) {
   StudyAnswer answer = study.answer(study, rows, played);
-  StudyReport report{.text = heading(played, study.whom) + table_of(study, rows, played) + answer.text,
-                     .csv = csv_of(study, rows, played),
-                     .json = json_of(study, rows, played),
-                     .svg = std::move(answer.svg)};
+  const std::string intervals =
+      played.calibrations == 0 ? "95 % intervals by match, for these robot files alone (--calibrations)"
+                               : fmt::format("95 % intervals by match and by {} calibrations", played.calibrations);
+  StudyReport report{
+      .text = fmt::format("{}{} matches of {} opportunities, the same for every {}; {}, seed {}; {}.\n\n{}{}",
+                          evaluator::kSimulated, played.matches, played.possessions, study.whom, played.scenario,
+                          played.seed, intervals, table_of(study, rows, played), answer.text),
+      .csv = csv_of(study, rows, played),
+      .json = json_of(study, rows, played),
+      .svg = std::move(answer.svg)};
   report.json.update(answer.more);
   return report;
 }

@@ -152,9 +152,9 @@ void report(const Flags& flags, bool goals, const std::vector<Way>& ways, const 
   std::vector<experiment::Effect> shares;
   std::string csv = "way,kind,value,low,high,difference,difference_low,difference_high,held_out_better\n";
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    const experiment::Term terms[] = {{&played[i], 1.0}, {&played[2], -1.0}};
+    const std::vector<experiment::Term> terms{{&played[i], 1.0}, {&played[2], -1.0}};
     const experiment::Effect share = experiment::share_of(played[i], measure);
-    const experiment::Term placed[] = {{&played[i], 1.0}, {&played[3], -1.0}};
+    const std::vector<experiment::Term> placed{{&played[i], 1.0}, {&played[3], -1.0}};
     const experiment::Effect less = experiment::contrast(terms, measure);
     shares.push_back(share);
     const bool from_log = i >= logs_from && i < logs_to;

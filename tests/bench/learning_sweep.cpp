@@ -91,7 +91,7 @@ void print(const std::string& world, const std::vector<Way>& ways, const std::ve
       line += fmt::format(
           "  {:<22}", experiment::share_text(experiment::share_of(played[w][b], experiment::Measure::kPerOpportunity)));
     for (std::size_t b = 0; w > 0 && b < kBands.size(); ++b) {
-      const experiment::Term terms[] = {{&played[w][b], 1.0}, {&played[0][b], -1.0}};
+      const std::vector<experiment::Term> terms{{&played[w][b], 1.0}, {&played[0][b], -1.0}};
       line += fmt::format("  {:<22}",
                           experiment::points_text(experiment::contrast(terms, experiment::Measure::kPerOpportunity)));
     }

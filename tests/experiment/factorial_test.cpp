@@ -107,7 +107,7 @@ TEST(Factorial, CalibrationsThatDifferWidenTheInterval) {
           {.opportunities = 40, .kicks = 20, .on_target = 10 + m % 2 + static_cast<std::int64_t>(k), .calibration = k});
     }
   }
-  const Term terms[] = {{&newer, 1.0}, {&older, -1.0}};
+  const std::vector<Term> terms{{&newer, 1.0}, {&older, -1.0}};
   const Effect effect = contrast(terms, Measure::kPerOpportunity);
   EXPECT_NEAR(effect.value, 4.5 / 40.0, 1e-12);
   // By hand: means of the calibrations 2 to 7 of 40, sd sqrt(3.5) / 40, Student's t of some 5 degrees of freedom.
@@ -195,7 +195,7 @@ TEST(StudyOfArms, ComparesEachArmWithTheFirst) {
 TEST(Factorial, AShareStaysWithinItsBounds) {
   ArmTally few(6, MatchTally{1, 1, 1});
   few.back().on_target = 0;
-  const Term alone[] = {{&few, 1.0}};
+  const std::vector<Term> alone{{&few, 1.0}};
   EXPECT_GT(contrast(alone, Measure::kEfficiency).ci.hi, 1.0);
   const Effect share = share_of(few, Measure::kEfficiency);
   EXPECT_EQ(share.ci.hi, 1.0);

@@ -260,7 +260,7 @@ TEST(Frontier, TheJackknifeOfAShareIsTheIntervalOfItsMatches) {
   const Effect jack = jackknife({&arm}, [](const auto& totals) {
     return static_cast<double>(totals[0].on_target) / static_cast<double>(totals[0].opportunities);
   });
-  const Term alone[] = {{&arm, 1.0}};
+  const std::vector<Term> alone{{&arm, 1.0}};
   const Effect linear = contrast(alone, Measure::kPerOpportunity);
   EXPECT_NEAR(jack.value, linear.value, 1e-12);
   EXPECT_NEAR(jack.ci.lo, linear.ci.lo, 1e-9);
