@@ -48,21 +48,15 @@ double share(const MatchTally& tally, Measure measure) {
   return evaluator::stats::efficiency(counts_of(tally, measure)).value_or(std::nan(""));
 }
 
-/// Shots on target of the best threshold over those of the oracle, the last row; the interval from 0 on.
-Effect share_of_oracle(const StudyRow& best, const StudyRow& oracle) {
-  Effect effect = jackknife({&best.matches, &oracle.matches}, [](const std::vector<MatchTally>& totals) {
-    return static_cast<double>(totals[0].on_target) / static_cast<double>(totals[1].on_target);
-  });
-  if (has_interval(effect)) effect.ci.lo = std::max(effect.ci.lo, 0.0);
-  return effect;
-}
-
 StudyAnswer answer_of_frontier(const Study& study, std::vector<StudyRow>& rows, const StudyPlayed&) {
   for (StudyRow& row : rows)
     if (!on_frontier(row) && &row != &rows.back()) row.changes = {frontier_above(rows, row)};
   const StudyRow& best = *std::ranges::max_element(
       rows, {}, [](const StudyRow& row) { return on_frontier(row) ? total_of(row.matches).on_target : -1; });
-  const Effect of_oracle = share_of_oracle(best, rows.back());
+  Effect of_oracle = jackknife({&best.matches, &rows.back().matches}, [](const std::vector<MatchTally>& totals) {
+    return static_cast<double>(totals[0].on_target) / static_cast<double>(totals[1].on_target);
+  });
+  of_oracle.ci.lo = has_interval(of_oracle) ? std::max(of_oracle.ci.lo, 0.0) : of_oracle.ci.lo;
   return {.text = fmt::format("At its best threshold, {}, {} has {} % of the oracle's shots on target.\n",
                               best.label("threshold"), best.label("policy"), share_text(of_oracle)),
           .more = {{"policy", best.label("policy")},

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "evaluator/render/table.hpp"
 #include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 
@@ -127,16 +128,11 @@ Effect jackknife(const std::vector<const ArmTally*>& arms,
   return {value, {value - reach, value + reach}};
 }
 
-std::string effect_text(const Effect& effect, double scale, const std::string& form) {
-  if (!std::isfinite(effect.value)) return "-";
-  const auto number = [&](double value) { return fmt::format(fmt::runtime(form), scale * value); };
-  return fmt::format("{} ({})", number(effect.value),
-                     has_interval(effect) ? fmt::format("{} to {}", number(effect.ci.lo), number(effect.ci.hi)) : "-");
+std::string share_text(const Effect& effect) { return evaluator::text_of(json_of(effect), {"", "", "{:.1f}", 100.0}); }
+
+std::string points_text(const Effect& effect) {
+  return evaluator::text_of(json_of(effect), {"", "", "{:+.1f}", 100.0});
 }
-
-std::string share_text(const Effect& effect) { return effect_text(effect, 100.0, "{:.1f}"); }
-
-std::string points_text(const Effect& effect) { return effect_text(effect, 100.0, "{:+.1f}"); }
 
 Json json_of(const Effect& effect) {
   if (!std::isfinite(effect.value)) return nullptr;

@@ -70,11 +70,7 @@ Effect kick_ratio(const ArmTally& older, const ArmTally& newer);
 Effect jackknife(const std::vector<const ArmTally*>& arms,
                  const std::function<double(const std::vector<MatchTally>&)>& of);
 
-/// "87.8 (87.1 to 88.5)" of `scale` times the numbers by fmt's `form`; "87.8 (-)" without an interval, "-" without a
-/// value.
-std::string effect_text(const Effect& effect, double scale, const std::string& form);
-
-/// A share in per cent.
+/// A share in per cent: "87.8 (87.1 to 88.5)"; "87.8 (-)" without an interval, "-" without a value.
 std::string share_text(const Effect& effect);
 
 /// A difference of shares in percentage points, always with its sign.

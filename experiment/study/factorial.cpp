@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "evaluator/render/table.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/stats/counts/interval.hpp"
 
@@ -68,54 +69,53 @@ std::optional<double> meets(const std::vector<Pair>& pairs, double (*number)(con
   return std::nullopt;
 }
 
-bool within_paper(const Effect& share, evaluator::stats::Counts paper) {
-  const auto ci = evaluator::stats::wilson(paper);
-  return share.value >= ci.lo && share.value <= ci.hi;
-}
-
 void add_effects(StudyAnswer& answer, const std::vector<StudyRow>& rows, Measure efficiency) {
-  std::vector<std::vector<std::string>> table{{"effect [points]", "efficiency", "on target/opp."}};
+  evaluator::Table table{{{"effect", "effect [points]"},
+                          {"of", "", ""},
+                          {"efficiency", "efficiency", "{:+.1f}", 100.0},
+                          {"on_target_per_opportunity", "on target/opp.", "{:+.1f}", 100.0}}};
   std::string legend;
   for (const CellEffect& effect : kEffects) {
     std::vector<Term> terms;
     for (std::size_t i = 0; i < kCells; ++i)
       if (effect.signs[i] != '0')
         terms.push_back({&rows[i].matches, (effect.signs[i] == '+' ? 1.0 : -1.0) / effect.of});
-    const Effect of_kicks = contrast(terms, efficiency), of_opportunities = contrast(terms, Measure::kPerOpportunity);
-    table.push_back({effect.key, points_text(of_kicks), points_text(of_opportunities)});
+    table.rows.push_back({effect.key, effect.what, json_of(contrast(terms, efficiency)),
+                          json_of(contrast(terms, Measure::kPerOpportunity))});
     legend += fmt::format("  {}: {}\n", effect.key, effect.what);
-    answer.more["effects"].push_back({{"effect", effect.key},
-                                      {"of", effect.what},
-                                      {"efficiency", json_of(of_kicks)},
-                                      {"on_target_per_opportunity", json_of(of_opportunities)}});
   }
-  answer.text +=
-      '\n' + evaluator::text_table(table) + legend + "It says nothing about why the paper's tournaments differed.\n";
+  answer.more["effects"] = rows_json(table);
+  answer.text += '\n' + evaluator::text_table(texts_of(table)) + legend +
+                 "It says nothing about why the paper's tournaments differed.\n";
 }
 
 /// A line a point and way to count blocked kicks.
 void add_pairs(StudyAnswer& answer, const std::vector<Pair>& pairs) {
-  std::vector<std::vector<std::string>> table{{"opponents [m]", "eye's common error [m]", "blocked", "kick ratio",
-                                               "old stopped [%]", "new moving [%]", "both within the paper's"}};
+  evaluator::Table table{{{"opponent_median_m", "opponents [m]", "{:g}"},
+                          {"eye_bias_m", "eye's common error [m]", "{:g}"},
+                          {"blocked", "blocked"},
+                          {"kick_ratio", "kick ratio", "{:.2f}"},
+                          {"old_stopped", "old stopped [%]", "{:.1f}", 100.0},
+                          {"new_moving", "new moving [%]", "{:.1f}", 100.0},
+                          {"both_within_papers", "", ""},
+                          {"", "both within the paper's"}}};
+  const auto is_within = [](const Effect& share, evaluator::stats::Counts paper) {
+    const auto ci = evaluator::stats::wilson(paper);
+    return share.value >= ci.lo && share.value <= ci.hi;
+  };
   for (const auto& [older, newer, ratio] : pairs) {
     for (const auto& [blocked, measure] :
          {std::pair{"outside", Measure::kEfficiency}, std::pair{"apart", Measure::kUnblocked}}) {
       const Effect before = share_of(older.matches, measure), after = share_of(newer.matches, measure);
-      const bool within = within_paper(before, kPaperOlder) && within_paper(after, kPaperNewer);
-      const std::string &median = older.label("opponent_median_m"), &bias = older.label("eye_bias_m");
-      table.push_back({median, bias.empty() ? "-" : bias, blocked, effect_text(ratio, 1.0, "{:.2f}"),
-                       share_text(before), share_text(after), within ? "yes" : "no"});
-      answer.more["pair"].push_back({{"opponent_median_m", std::stod(median)},
-                                     {"eye_bias_m", bias.empty() ? Json() : Json(std::stod(bias))},
-                                     {"blocked", blocked},
-                                     {"kick_ratio", json_of(ratio)},
-                                     {"old_stopped", json_of(before)},
-                                     {"new_moving", json_of(after)},
-                                     {"both_within_papers", within}});
+      const bool within = is_within(before, kPaperOlder) && is_within(after, kPaperNewer);
+      const std::string& bias = older.label("eye_bias_m");
+      table.rows.push_back({std::stod(older.label("opponent_median_m")), bias.empty() ? Json() : Json(std::stod(bias)),
+                            blocked, json_of(ratio), json_of(before), json_of(after), within, within ? "yes" : "no"});
     }
   }
+  answer.more["pair"] = rows_json(table);
   answer.text += fmt::format("\nThe paper: kick ratio {:.2f}, 52.3 and 75.8 %.\n{}", kPaperKickRatio,
-                             evaluator::text_table(table));
+                             evaluator::text_table(texts_of(table)));
 }
 
 void add_ratio(StudyAnswer& answer, const std::vector<Pair>& pairs) {

@@ -145,7 +145,7 @@ Ran stopped(const tests::Folder& folder, const Words& study, const std::string& 
   words.insert(words.end(), {"--results", file});
   Program program{"trivela", words, folder.path()};
   EXPECT_TRUE(wait_for_change(folder.path(), program.watch(), [&] {
-    std::error_code missing;  // of some 110 kB it has no match, of 220 kB all
+    std::error_code missing;  // of some 110 kB it has no match, of 260 kB all
     return std::filesystem::file_size(folder / file, missing) > 130'000 && !missing;
   }));
   program.signal(SIGINT);

@@ -107,13 +107,14 @@ std::string to_settings_file(const Tuning& tuning, const fs::path& out) {
       tuning.policy, tuning.tuning.scenario, tuning.command, tuning.tuning.calibrations > 0 ? " and calibration" : "",
       fmt::join(outcome(tuning), "\n# "), relative(tuning.settings.run.robot), relative(tuning.settings.run.scenario));
   const auto defaults = config::setting_values({});
-  const auto searched = [&](const std::string& key) {
-    return std::ranges::any_of(
-        tuning.space, [&](const Coordinate& coordinate) { return std::ranges::count(keys_of(coordinate), key) > 0; });
-  };
+  std::vector<std::string> searched;  // lines
+  for (const Coordinate& coordinate : tuning.space)
+    for (const std::string& line : present_choice(tuning.settings, coordinate)) searched.push_back(line);
   std::map<std::string, std::string> sections;  // text by name
   for (const auto& [key, value] : config::setting_values(tuning.settings)) {
-    if (!key.starts_with("policy.") || (defaults.at(key) == value && !searched(key))) continue;
+    if (!key.starts_with("policy.") ||
+        (defaults.at(key) == value && std::ranges::count(searched, fmt::format("{} = {}", key, value)) == 0))
+      continue;
     const auto dot = key.rfind('.');
     sections[key.substr(0, dot)] += fmt::format("{} = {}\n", key.substr(dot + 1), value);
   }

@@ -31,9 +31,6 @@ std::vector<std::string> tuned_policies();
 /// `called`, for a key that is no setting of [policy], a value that it cannot have, and fewer than two values.
 Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>& space, const std::string& called);
 
-/// The keys that its choices set.
-std::vector<std::string> keys_of(const Coordinate& coordinate);
-
 /// The settings with a choice on top. Throws config::Error.
 config::Settings with_choice(config::Settings settings, const Choice& choice);
 

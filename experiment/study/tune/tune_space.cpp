@@ -94,12 +94,6 @@ Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>&
   return made;
 }
 
-std::vector<std::string> keys_of(const Coordinate& coordinate) {
-  std::vector<std::string> keys;
-  for (const std::string& line : coordinate.choices.front()) keys.push_back(line.substr(0, line.find(" = ")));
-  return keys;
-}
-
 config::Settings with_choice(config::Settings settings, const Choice& choice) {
   for (const std::string& line : choice) config::override_setting(settings, {line, line});
   return settings;
@@ -107,8 +101,11 @@ config::Settings with_choice(config::Settings settings, const Choice& choice) {
 
 Choice present_choice(const config::Settings& settings, const Coordinate& coordinate) {
   const auto values = config::setting_values(settings);
-  Choice lines;
-  for (const std::string& key : keys_of(coordinate)) lines.push_back(fmt::format("{} = {}", key, values.at(key)));
+  Choice lines = coordinate.choices.front();
+  for (std::string& line : lines) {
+    const std::string key = line.substr(0, line.find(" = "));
+    line = fmt::format("{} = {}", key, values.at(key));
+  }
   return lines;
 }
 
