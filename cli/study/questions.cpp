@@ -1,12 +1,15 @@
-// The studies that are arms in worlds: flags, and what they play of them. They end in run_study().
+// The studies that are arms in worlds: flags, and what they play of them. They end in ask().
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <set>
+#include <utility>
 
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/study/study.hpp"
 #include "config/scenario/scenario.hpp"
+#include "evaluator/render/json_values.hpp"
 #include "experiment/study/studies.hpp"
 
 namespace trivela::cli {
@@ -165,15 +168,50 @@ constexpr Question kQuestions[]{
      },
      sensitivity}};
 
+/// Plays the study and gives its report: printed as text or JSON, and the files that were asked for last, so that a
+/// full disk takes no more than the file. A shard's part has no report.
+int ask(const Question& question, QuestionFlags flags) {
+  flags.require_writable();
+  const Scenario scenario = flags.world.load();
+  const Study study = question.study(flags, scenario);
+  std::vector<Scenario> played;
+  for (const experiment::StudyWorld& world : study.worlds) played.push_back(world.scenario);
+  flags.world.require_effect(played);
+  flags.draw_calibrations(scenario);
+  const std::vector<experiment::Arm>& arms = study.worlds.front().arms;
+  if (flags.calibrations == 0)
+    for (const std::string& remark : experiment::shared_robots(scenario, arms)) warn(remark);
+  for (const experiment::Arm& arm : arms) check_playable(scenario, arm, flags.plan.possessions);
+  StudyRun run{flags, study.name, arguments_of(study)};
+  try {
+    auto rows = run.play(study.worlds, flags.plan).rows;
+    run.finish();
+    if (const auto& shard = flags.plan.shard) {
+      const auto range = log::range_of(shard, flags.plan.matches);
+      fmt::print(
+          "shard {}: matches {} to {} of {} are in {}. For the report give this command --with and the files of all "
+          "shards, in place of --shard and --results\n",
+          shard->text(), range.begin, range.end - 1, flags.plan.matches, flags.results);
+      return kDone;
+    }
+    const experiment::StudyReport report = report_of(study, std::move(rows), flags.played(scenario));
+    flags.json ? fmt::print("{}", evaluator::json_text(report.json)) : say(report.text);
+    std::fflush(stdout);
+    if (!flags.csv.empty()) write_file(flags.csv, report.csv);
+    if (!flags.svg.empty()) write_file(flags.svg, report.svg);
+  } catch (const StudyRun::Interrupted&) {
+    return run.keep();
+  }
+  return kDone;
+}
+
 }  // namespace
 
 void add_questions(CLI::App& study, int& exit_code) {
   for (const Question& question : kQuestions) {
     CLI::App& verb = *study.add_subcommand(question.name, question.asks);
     const auto flags = std::make_shared<QuestionFlags>();
-    verb.callback([flags, &question, &exit_code] {
-      exit_code = run_study(*flags, [&](const Scenario& scenario) { return question.study(*flags, scenario); });
-    });
+    verb.callback([flags, &question, &exit_code] { exit_code = ask(question, *flags); });
     question.add_options(verb, *flags);
     add_play_options(verb, *flags);
     add_default(verb, "--blocked", flags->blocked,

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <utility>
 
 #include "cli/launch/progress_bar.hpp"
 #include "cli/options/number_checks.hpp"
 #include "cli/options/play_options.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/render/json_values.hpp"
 
 namespace trivela::cli {
 
@@ -103,12 +101,13 @@ StudyRun::StudyRun(const StudyFlags& flags, const std::string& name, const std::
 experiment::KnownPlay StudyRun::play(const std::vector<experiment::StudyWorld>& worlds,
                                      const experiment::PlayPlan& plan) {
   bar_.restart();
-  return experiment::play_missing(worlds, plan, results_,
-                                  [&](std::size_t done, std::size_t all, const std::string& what) {
-                                    if (all > 0)
-                                      bar_.show(static_cast<double>(done), static_cast<double>(all), "matches", what);
-                                    if (StopRequest::asked()) throw Interrupted{};
-                                  });
+  auto known =
+      experiment::play_missing(worlds, plan, results_, [&](std::size_t done, std::size_t all, const std::string& what) {
+        if (all > 0) bar_.show(static_cast<double>(done), static_cast<double>(all), "matches", what);
+        if (StopRequest::asked()) throw Interrupted{};
+      });
+  results_.commit();
+  return known;
 }
 
 ExitCode StudyRun::keep() {
@@ -125,46 +124,6 @@ ExitCode StudyRun::keep() {
   warn(matches > 0 ? fmt::format("interrupted; {} matches are in {}: {} goes on from there", matches, file, command)
                    : "interrupted before a match was played");
   return kFailed;
-}
-
-void StudyRun::finish() {
-  bar_.end();
-  results_.commit();
-}
-
-ExitCode run_study(StudyFlags flags, const std::function<experiment::Study(const sim::Scenario&)>& make) {
-  flags.require_writable();
-  const sim::Scenario scenario = flags.world.load();
-  const experiment::Study study = make(scenario);
-  std::vector<sim::Scenario> played;
-  for (const experiment::StudyWorld& world : study.worlds) played.push_back(world.scenario);
-  flags.world.require_effect(played);
-  flags.draw_calibrations(scenario);
-  const std::vector<experiment::Arm>& arms = study.worlds.front().arms;
-  if (flags.calibrations == 0)
-    for (const std::string& remark : experiment::shared_robots(scenario, arms)) warn(remark);
-  for (const experiment::Arm& arm : arms) check_playable(scenario, arm, flags.plan.possessions);
-  StudyRun run{flags, study.name, arguments_of(study)};
-  try {
-    auto rows = run.play(study.worlds, flags.plan).rows;
-    run.finish();
-    if (const auto& shard = flags.plan.shard) {
-      const auto range = log::range_of(shard, flags.plan.matches);
-      fmt::print(
-          "shard {}: matches {} to {} of {} are in {}. For the report give this command --with and the files of all "
-          "shards, in place of --shard and --results\n",
-          shard->text(), range.begin, range.end - 1, flags.plan.matches, flags.results);
-      return kDone;
-    }
-    const experiment::StudyReport report = report_of(study, std::move(rows), flags.played(scenario));
-    flags.json ? fmt::print("{}", evaluator::json_text(report.json)) : say(report.text);
-    std::fflush(stdout);
-    if (!flags.csv.empty()) write_file(flags.csv, report.csv);
-    if (!flags.svg.empty()) write_file(flags.svg, report.svg);
-  } catch (const StudyRun::Interrupted&) {
-    return run.keep();
-  }
-  return kDone;
 }
 
 void add_study(CLI::App& app, int& exit_code) {

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <functional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -48,8 +47,7 @@ struct StudyFlags {
 std::vector<experiment::Team> draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base,
                                                 const experiment::RepeatedCalibration& plan, std::uint32_t matches);
 
-/// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations, --results, --with, --shard, and those
-/// of add_arm_options().
+/// The flags of the plan, the world, the calibrations, the results and the arms.
 void add_play_options(CLI::App& verb, StudyFlags& flags);
 
 void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations);
@@ -65,14 +63,15 @@ class StudyRun {
   /// where --results or --with cannot be used.
   StudyRun(const StudyFlags& flags, const std::string& name, const std::string& arguments);
 
-  /// Plays what the results lack and gives what is known then. Throws Interrupted where somebody asks to stop.
+  /// Plays what the results lack, keeps it, and gives what is known then. Throws Interrupted where somebody asks to
+  /// stop.
   experiment::KnownPlay play(const std::vector<experiment::StudyWorld>& worlds, const experiment::PlayPlan& plan);
 
   /// Somebody asked to stop: keeps what was played, and says how to go on from there.
   ExitCode keep();
 
-  /// What was asked for is there.
-  void finish();
+  /// Ends the line of progress.
+  void finish() { bar_.end(); }
 
   /// Somebody asked to stop.
   struct Interrupted {};
@@ -85,14 +84,8 @@ class StudyRun {
   ProgressBar bar_;
 };
 
-/// Plays the study that `make` makes of the scenario, and gives its report: printed as text or JSON, and the files that
-/// were asked for last, so that a full disk takes no more than the file. A shard's part has no report.
-ExitCode run_study(StudyFlags flags, const std::function<experiment::Study(const sim::Scenario&)>& make);
+// Subcommands of `trivela study`.
 
-/// Studies that are arms in worlds (questions.cpp).
-void add_questions(CLI::App& study, int& exit_code);
-void add_study_tune(CLI::App& study, int& exit_code);
-void add_evaluate_policy(CLI::App& study, int& exit_code);
-void add_learn(CLI::App& study, int& exit_code);
+AddVerb add_questions, add_study_tune, add_evaluate_policy, add_learn;
 
 }  // namespace trivela::cli

@@ -52,18 +52,6 @@ std::string command_of(const TuneFlags& flags, std::uint64_t held_out_seed) {
 /// A shard has played its part of the step that the search is at; the next one depends on all parts.
 struct StepPlayed {};
 
-/// Plays the same matches with each of the settings.
-std::vector<experiment::ArmTally> play(StudyRun& run, experiment::StudyWorld world, const experiment::PlayPlan& plan,
-                                       const std::vector<config::Settings>& settings) {
-  world.arms.resize(settings.size(), world.arms.front());
-  for (std::size_t i = 0; i < settings.size(); ++i) world.arms[i].settings = settings[i];
-  const auto known = run.play({world}, plan);
-  if (!known.whole) throw StepPlayed{};
-  std::vector<experiment::ArmTally> tallies;
-  for (const experiment::StudyRow& row : known.rows) tallies.push_back(row.matches);
-  return tallies;
-}
-
 ExitCode say_step(StudyRun& run, const TuneFlags& flags, bool ended) {
   run.finish();
   say(fmt::format(
@@ -73,34 +61,42 @@ ExitCode say_step(StudyRun& run, const TuneFlags& flags, bool ended) {
   return ended ? kDone : kDoneWithLoss;
 }
 
-void write_best(const experiment::Tuning& tuning, const TuneFlags& flags) {
-  write_file(flags.out, experiment::to_settings_file(tuning, flags.out));
-  say(to_text(tuning) + flags.out + "\n");
-}
-
 /// Searches, and plays what was found, and what it began with, on other matches and calibrations.
 ExitCode search(StudyRun& run, experiment::Tuning& tuning, experiment::StudyWorld world, const TuneFlags& flags,
-                const experiment::PlayPlan& held_out) try {
+                const experiment::PlayPlan& held_out) {
   const config::Settings start = tuning.settings;
+  const experiment::Arm arm = world.arms.front();
+  const auto play = [&](const experiment::PlayPlan& plan, const std::vector<config::Settings>& settings) {
+    world.arms.assign(settings.size(), arm);
+    for (std::size_t i = 0; i < settings.size(); ++i) world.arms[i].settings = settings[i];
+    const auto known = run.play({world}, plan);
+    if (!known.whole) throw StepPlayed{};
+    std::vector<experiment::ArmTally> tallies;
+    for (const experiment::StudyRow& row : known.rows) tallies.push_back(row.matches);
+    return tallies;
+  };
   const auto step = [&](const std::vector<config::Settings>& settings) {
     world.what = fmt::format("{} settings tried, {} changed", tuning.tried, tuning.steps.size());
-    return play(run, world, flags.plan, settings);
+    return play(flags.plan, settings);
   };
-  experiment::coordinate_search(flags.rounds, step, tuning);
-  world.what = "held out";
-  tuning.held_out_played = play(run, world, held_out, {start, tuning.settings});
-  if (flags.plan.shard) return say_step(run, flags, true);
-  write_best(tuning, flags);
-  run.finish();
-  return kDone;
-} catch (const StepPlayed&) {
-  return say_step(run, flags, false);
-} catch (const StudyRun::Interrupted&) {
-  if (!flags.plan.shard && tuning.tried > 0) {
-    write_best(tuning, flags);
-    warn(fmt::format("interrupted; {} has the best so far", flags.out));
+  bool interrupted = false;
+  try {
+    experiment::coordinate_search(flags.rounds, step, tuning);
+    world.what = "held out";
+    tuning.held_out_played = play(held_out, {start, tuning.settings});
+    if (flags.plan.shard) return say_step(run, flags, true);
+  } catch (const StepPlayed&) {
+    return say_step(run, flags, false);
+  } catch (const StudyRun::Interrupted&) {
+    interrupted = true;
   }
-  return run.keep();
+  run.finish();
+  if (!flags.plan.shard && tuning.tried > 0) {
+    write_file(flags.out, experiment::to_settings_file(tuning, flags.out));
+    say(to_text(tuning) + flags.out + "\n");
+    if (interrupted) warn(fmt::format("interrupted; {} has the best so far", flags.out));
+  }
+  return interrupted ? run.keep() : kDone;
 }
 
 int study_tune(const TuneFlags& asked) {

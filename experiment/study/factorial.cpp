@@ -49,13 +49,6 @@ struct Pair {
   Effect kick_ratio;
 };
 
-std::vector<Pair> pairs_behind_cells(const std::vector<StudyRow>& rows) {
-  std::vector<Pair> pairs;
-  for (std::size_t i = kCells; i + 1 < rows.size(); i += 2)
-    pairs.push_back({rows[i], rows[i + 1], kick_ratio(rows[i].matches, rows[i + 1].matches)});
-  return pairs;
-}
-
 /// Where in the sweep the number of a kick ratio first meets the paper's [m]; none: nowhere.
 std::optional<double> meets(const std::vector<Pair>& pairs, double (*number)(const Effect&)) {
   const auto is_swept = [](const Pair& pair) { return pair.older.label("kind") == "sweep"; };
@@ -137,9 +130,12 @@ StudyAnswer answer_of(const Study&, const std::vector<StudyRow>& rows, const Stu
   const std::vector<StudyRow> cells(rows.begin(), rows.begin() + kCells);
   StudyAnswer answer{.svg = chart_of(cells, "table", {played.efficiency, Measure::kPerOpportunity}, {})};
   add_effects(answer, rows, played.efficiency);
-  const std::vector<Pair> pairs = pairs_behind_cells(rows);
-  if (!pairs.empty()) add_pairs(answer, pairs);
-  if (!pairs.empty() && pairs.front().older.label("kind") == "sweep") add_ratio(answer, pairs);
+  std::vector<Pair> pairs;
+  for (std::size_t i = kCells; i + 1 < rows.size(); i += 2)
+    pairs.push_back({rows[i], rows[i + 1], kick_ratio(rows[i].matches, rows[i + 1].matches)});
+  if (pairs.empty()) return answer;
+  add_pairs(answer, pairs);
+  if (pairs.front().older.label("kind") == "sweep") add_ratio(answer, pairs);
   return answer;
 }
 

@@ -33,20 +33,6 @@ std::string toml_value_of(const Inputs& inputs, const std::string& key) {
   return found->second;
 }
 
-UncertainInput input_in(const config::Row& row) {
-  UncertainInput input{row.word("key").value_or(""), row.word("low").value_or(""), row.word("high").value_or(""),
-                       row.word("why").value_or("")};
-  if (!toml_value_of({}, input.key).starts_with('"')) {
-    const double low = row.number("low"), high = row.number("high");
-    if (!(low < high)) throw std::invalid_argument{"low is not below high"};
-    input.low = fmt::format("{}", low);
-    input.high = fmt::format("{}", high);
-  }
-  if (is_setting(input.key))
-    for (const std::string& end : {input.low, input.high}) with({}, input.key, end);
-  return input;
-}
-
 StudyAnswer answer_of(const Study& study, std::vector<StudyRow>& rows, Measure measure,
                       std::vector<UncertainInput> inputs) {
   const StudyWorld& usual = study.worlds.front();
@@ -94,7 +80,19 @@ StudyAnswer answer_of(const Study& study, std::vector<StudyRow>& rows, Measure m
 
 std::vector<UncertainInput> load_inputs(const std::string& path) {
   std::vector<UncertainInput> inputs;
-  config::each_row(path, [&](const config::Row& row) { inputs.push_back(input_in(row)); });
+  config::each_row(path, [&](const config::Row& row) {
+    UncertainInput& input =
+        inputs.emplace_back(UncertainInput{row.word("key").value_or(""), row.word("low").value_or(""),
+                                           row.word("high").value_or(""), row.word("why").value_or("")});
+    if (!toml_value_of({}, input.key).starts_with('"')) {
+      const double low = row.number("low"), high = row.number("high");
+      if (!(low < high)) throw std::invalid_argument{"low is not below high"};
+      input.low = fmt::format("{}", low);
+      input.high = fmt::format("{}", high);
+    }
+    if (is_setting(input.key))
+      for (const std::string& end : {input.low, input.high}) with({}, input.key, end);
+  });
   if (inputs.empty()) throw config::Error{fmt::format("{}: names no input (key,low,high,why)", path)};
   return inputs;
 }

@@ -45,6 +45,7 @@ struct StudyRow {
   ArmTally matches;
   std::vector<Effect> changes{};  ///< in the order of the study's; empty: it is what others are compared with
 
+  /// The text of a label that all rows of the study have.
   const std::string& label(const std::string& key) const;
 };
 

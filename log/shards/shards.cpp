@@ -32,26 +32,20 @@ struct Part {
   std::int64_t done = 0;  // matches
 };
 
-/// None: the arguments are those of a whole experiment.
-std::optional<ShardStamp> stamp_of(const std::string& arguments) {
-  const auto at = arguments.rfind(kMark);
-  if (at == std::string::npos) return std::nullopt;
-  ShardStamp stamp{arguments.substr(0, at), {}, 0};
-  std::istringstream numbers{arguments.substr(at + kMark.size())};
-  numbers >> stamp.shard.number >> stamp.shard.count >> stamp.matches;
-  const auto [number, count] = stamp.shard;
-  const bool holds = number >= 1 && number <= count && count <= stamp.matches && stamped_arguments(stamp) == arguments;
-  return holds ? std::optional{stamp} : std::nullopt;
-}
-
 /// None: another log.
 std::optional<Part> part_in(const fs::path& path, Check check) {
   std::vector<Part> found;
   Reader(path, check)
       .query("SELECT arguments, matches, matches_done FROM experiments",
              [&](const std::string& arguments, std::uint32_t matches, std::int64_t done) {
-               const auto stamp = stamp_of(arguments);
-               found.push_back({path, stamp.value_or(ShardStamp{arguments, {}, matches}), stamp.has_value(), done});
+               const auto at = std::min(arguments.rfind(kMark), arguments.size());
+               ShardStamp stamp{arguments.substr(0, at), {}, 0};
+               std::istringstream{arguments.substr(std::min(at + kMark.size(), arguments.size()))} >>
+                   stamp.shard.number >> stamp.shard.count >> stamp.matches;
+               const auto [number, count] = stamp.shard;
+               const bool is_shard =
+                   number >= 1 && number <= count && count <= stamp.matches && stamped_arguments(stamp) == arguments;
+               found.push_back({path, is_shard ? stamp : ShardStamp{arguments, {}, matches}, is_shard, done});
              });
   return found.size() == 1 ? std::optional{found.front()} : std::nullopt;
 }
@@ -59,17 +53,6 @@ std::optional<Part> part_in(const fs::path& path, Check check) {
 /// The sentence that refuses a file.
 std::runtime_error refused_shard(const fs::path& path, const std::string& why) {
   return std::runtime_error(path.string() + ": " + why);
-}
-
-Part read_part(const fs::path& path) {
-  const auto part = part_in(path, Check::kWhole);
-  if (!part) throw refused_shard(path, "is no shard of an experiment (trivela simulate --shard), the other files are");
-  const std::int64_t matches = range_of(part->stamp.shard, part->stamp.matches).size();
-  if (part->done != matches)
-    throw refused_shard(path, fmt::format("shard {} has {} of its {} matches: the command that began it goes on from "
-                                          "there",
-                                          part->stamp.shard.text(), part->done, matches));
-  return *part;
 }
 
 /// Throws unless all are of one experiment, and none of its shards lacks.
@@ -147,7 +130,17 @@ MergedShards merge_shards(const std::vector<fs::path>& files, const fs::path& to
                           const std::function<bool(std::int64_t, std::int64_t)>& told) {
   std::vector<Part> parts;
   parts.reserve(files.size());
-  for (const fs::path& path : files) parts.push_back(read_part(path));
+  for (const fs::path& path : files) {
+    const auto part = part_in(path, Check::kWhole);
+    if (!part)
+      throw refused_shard(path, "is no shard of an experiment (trivela simulate --shard), the other files are");
+    const std::int64_t matches = range_of(part->stamp.shard, part->stamp.matches).size();
+    if (part->done != matches)
+      throw refused_shard(path, fmt::format("shard {} has {} of its {} matches: the command that began it goes on from "
+                                            "there",
+                                            part->stamp.shard.text(), part->done, matches));
+    parts.push_back(*part);
+  }
   check_one_experiment(parts);
   check_sessions(parts);
   std::ranges::stable_sort(parts, {}, [](const Part& part) { return part.stamp.shard.number; });
