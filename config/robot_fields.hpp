@@ -3,8 +3,6 @@
 #include <fmt/core.h>
 
 #include <stdexcept>
-#include <string_view>
-#include <vector>
 
 #include "config/calibration_fields.hpp"
 #include "config/robot.hpp"

@@ -107,7 +107,6 @@ void add_minutes(KickDataset& dataset, const Row& row, const evaluator::Opportun
                   fmt::format("differs from {} in an earlier row of the same group and match", place->second));
 }
 
-// In metres, looked at in every row: a bad cell is one whether or not anybody stratifies by it.
 std::optional<double> distance_of(const Row& row) {
   const auto distance_m = row.number_if_any("distance_m");
   if (distance_m && *distance_m < 0.0) throw CellError("distance_m", *row.word("distance_m"), "is negative");

@@ -113,10 +113,6 @@ std::string ChildProcess::how_it_ended() const {
   return fmt::format("exit code {}", WEXITSTATUS(*status_));
 }
 
-bool ChildProcess::died_of(int signal) const {
-  return status_ && WIFSIGNALED(*status_) && WTERMSIG(*status_) == signal;
-}
-
 void ChildProcess::terminate() const {
   if (!status_) kill(pid_, SIGTERM);
 }
@@ -152,7 +148,7 @@ std::vector<std::string> stop_all(std::deque<ChildProcess>& nodes, std::size_t l
     if (nodes.size() <= last) node.terminate();
     if (!node.wait(kTimeout)) {
       trouble.push_back(fmt::format("{} did not stop within 10 s", node.name()));
-    } else if (ran[nodes.size() - 1] && !node.succeeded() && !node.died_of(SIGTERM)) {
+    } else if (ran[nodes.size() - 1] && !node.stopped()) {
       trouble.push_back(fmt::format("{} failed on stopping ({})", node.name(), node.how_it_ended()));
     }
   }

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <deque>
 #include <filesystem>
@@ -37,10 +38,11 @@ class ChildProcess {
   /// Whether it has ended, and then how; never waits.
   bool ended();
   bool succeeded() { return ended() && status_ == 0; }
+  /// It ended as one that was asked to: well, or by SIGTERM where it did not listen yet.
+  bool stopped() { return succeeded() || status_ == SIGTERM; }
 
   /// "exit code 1", "signal 9 (Killed)".
   std::string how_it_ended() const;
-  bool died_of(int signal) const;
 
   /// Asks it to stop.
   void terminate() const;
@@ -64,8 +66,7 @@ std::string dead_node(std::deque<ChildProcess>& nodes);
 
 /// Ends them. Each is asked once, since a second signal would hit one that has stopped listening. The first `last` of
 /// the list stop after the others, one after the other from behind: the recorder hears what the others say on their way
-/// out. Returns what went wrong, a sentence each; a node that was asked before it listened dies of that, which is
-/// right.
+/// out. Returns what went wrong, a sentence each.
 std::vector<std::string> stop_all(std::deque<ChildProcess>& nodes, std::size_t last);
 
 /// From now on the node is this program with the node's name as its first argument.

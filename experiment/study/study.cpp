@@ -108,8 +108,7 @@ StudyReport report_of(const Study& study, std::vector<StudyRow> rows, const Stud
                {"possessions", played.possessions},
                {"calibrations", played.calibrations},
                {"blocked", played.efficiency == Measure::kUnblocked ? "apart" : "outside"},
-               {"notes",
-                {"on_target and blocked are as the robots observed them, goals and bounced the simulator's truth"}},
+               {"notes", {"on_target, blocked: as robots observed them; goals, bounced: the simulator's truth"}},
                {"rows", rows_json(table)}},
       .svg = std::move(answer.svg)};
   report.json.update(answer.more);
