@@ -83,8 +83,8 @@ void StudyResults::save(const fs::path& path) {
   if (!begins && !kept.text.starts_with(kStudyResultsBegin))
     throw taken("is there already and has no study results of this version; choose another file");
   if (!begins && kept.arguments != arguments_) throw other_arguments(path, "a study", kept.arguments, arguments_);
-  const std::size_t whole_B = begins ? 0 : kept.text.rfind('\n') + 1;
-  if (::ftruncate(file_, static_cast<off_t>(whole_B)) != 0) throw failed(path, "results cannot be written");
+  const std::size_t whole_bytes = begins ? 0 : kept.text.rfind('\n') + 1;
+  if (::ftruncate(file_, static_cast<off_t>(whole_bytes)) != 0) throw failed(path, "results cannot be written");
   if (begins) unwritten_.insert(0, head);
   arms_.merge(kept.arms);
   commit();
@@ -125,9 +125,9 @@ void StudyResults::commit() {
   written_at_ = std::chrono::steady_clock::now();
   if (file_ < 0) return;
   while (!unwritten_.empty()) {
-    const ssize_t written_B = ::write(file_, unwritten_.data(), unwritten_.size());
-    if (written_B < 0) throw failed(path_, "results could not be written");
-    unwritten_.erase(0, static_cast<std::size_t>(written_B));
+    const ssize_t written_bytes = ::write(file_, unwritten_.data(), unwritten_.size());
+    if (written_bytes < 0) throw failed(path_, "results could not be written");
+    unwritten_.erase(0, static_cast<std::size_t>(written_bytes));
   }
   if (::fdatasync(file_) != 0) throw failed(path_, "results could not be written");
 }
