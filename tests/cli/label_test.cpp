@@ -181,8 +181,8 @@ class OfTwoSessions : public AfterTheMatch {
 };
 
 TEST_F(OfTwoSessions, ALabelNeedsTheSessionWhereBothHaveTheKick) {
-  EXPECT_THROW(said({"label", both_, "1:1", "goal", "--by", "Ada"}), std::runtime_error);
-  EXPECT_THROW(said({"label", both_, "1:1", "goal", "--by", "Ada", "--session", "cccc"}), std::runtime_error);
+  EXPECT_THROW(said({"label", both_, "1:1", "goal", "--by", "Ada"}), UsageError);
+  EXPECT_THROW(said({"label", both_, "1:1", "goal", "--by", "Ada", "--session", "cccc"}), UsageError);
   EXPECT_THAT(said({"query", both_, "SELECT count(*) AS n FROM labels", "--csv"}), HasSubstr("n\n0\n"));
   said({"label", both_, "1:1", "goal", "--by", "Ada", "--session", "bbbb"});
   EXPECT_THAT(said({"query", both_,
@@ -226,7 +226,7 @@ TEST_F(OfTwoSessions, ANoteOfOneIsListedWithItAlone) {
 }
 
 TEST_F(OfTwoSessions, ANoteOfASessionThatIsNotThereIsRefused) {
-  EXPECT_THROW(said({"note", both_, "rain", "--by", "Ada", "--session", "cccc"}), std::runtime_error);
+  EXPECT_THROW(said({"note", both_, "rain", "--by", "Ada", "--session", "cccc"}), UsageError);
   EXPECT_THROW(said({"note", both_, "--withdraw", "referee", "--by", "Ada"}), CLI::ValidationError);
   EXPECT_EQ(said({"note", both_}), "nobody has noted anything\n");
 }

@@ -210,7 +210,7 @@ TEST(Replay, RefusesWhatItCannotDecideAgain) {
   EXPECT_THAT(replay(folder, {"match.db", "--out", "out.db", "--set", "hal.wheels=\"cia402\""}, 2),
               HasSubstr("plays no part in a replay"));
   EXPECT_THAT(replay(folder, {"match.db", "--out", "match.db"}, 2), HasSubstr("never overwritten"));
-  EXPECT_THAT(replay(folder, {"match.db", "--session", "none", "--out", "out.db"}, 1), HasSubstr(": robot 1"));
+  EXPECT_THAT(replay(folder, {"match.db", "--session", "none", "--out", "out.db"}, 2), HasSubstr(": robot 1"));
   EXPECT_FALSE(exists(folder / "out.db"));
 }
 
