@@ -121,7 +121,7 @@ TEST(Replay, DecidesTheSessionThatIsNamed) {
   ASSERT_EQ(merge.wait(), 0) << merge.errors();
   for (const char* const log : {"match_7.db", "match_8.db"}) {
     const std::string uuid = Reader{folder / log}.sessions()[0].uuid;
-    EXPECT_THAT(replay(folder, {"both.db", "--out", "out.db"}, 1), HasSubstr(uuid));
+    EXPECT_THAT(replay(folder, {"both.db", "--out", "out.db"}, 2), HasSubstr(uuid));
     const std::string out = fmt::format("again_{}", log);
     replay(folder, {"both.db", "--session", uuid.substr(0, 30), "--out", out});
     EXPECT_EQ(Reader{folder / out}.sessions()[0].replays_uuid, uuid);
