@@ -15,6 +15,6 @@ for ((step = 1; ; ++step)); do
     if ((code != 3)); then exit "$code"; fi
     touch "$folder/step_$step/done"
   fi
-  with=(--with "$folder/step_$step"/shard_*.db)
+  with=(--with "$folder/step_$step"/shard_*.results)
 done
-exec "${TRIVELA:-trivela}" study tune "$@" --with "$folder/step_$step"/shard_*.db --out "$out"
+exec "${TRIVELA:-trivela}" study tune "$@" --with "$folder/step_$step"/shard_*.results --out "$out"

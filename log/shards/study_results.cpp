@@ -37,10 +37,13 @@ struct Kept {
   explicit Kept(const fs::path& path) {
     std::ifstream file{path, std::ios::binary};
     if (!file) throw failed(path, "results cannot be read");
-    text.assign(std::istreambuf_iterator<char>{file}, {});
+    text.resize(kStudyResultsBegin.size());
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    if (text != kStudyResultsBegin) return;  // a match log may be large
+    text.append(std::istreambuf_iterator<char>{file}, {});
     std::istringstream lines{text.substr(0, text.rfind('\n') + 1)};
     std::string line;
-    if (!text.starts_with(kStudyResultsBegin)) return;
     for (std::getline(lines, line); std::getline(lines, line);) {
       if (line.starts_with("= ")) {
         arguments += line.substr(2) + '\n';
@@ -74,7 +77,10 @@ void StudyResults::save(const fs::path& path) {
   if (file_ < 0) throw failed(path, "results cannot be written");
   const auto taken = [&](const char* why) { return FileTaken(fmt::format("{}: {}", path.string(), why)); };
   if (!fs::is_regular_file(path)) throw taken("is no file");
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) throw taken("another run writes to it");
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK) throw taken("another run writes to it");
+    throw failed(path, "results cannot be locked");
+  }
   std::string head{kStudyResultsBegin};
   std::istringstream lines{arguments_};
   for (std::string line; std::getline(lines, line);) head += "= " + line + '\n';

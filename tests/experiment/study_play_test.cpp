@@ -206,6 +206,13 @@ TEST(StudyPlay, AFileOfOtherArgumentsIsRefusedWithTheLineThatDiffers) {
               ThrowsMessage<log::FileTaken>(HasSubstr("text.db: is there already and has no study results")));
 }
 
+TEST(StudyPlay, AFileThatAnotherRunWritesToIsRefused) {
+  const tests::Folder folder;
+  const StudyResults first{folder / "a.db", kArguments};
+  EXPECT_THAT([&] { StudyResults(folder / "a.db", kArguments); },
+              ThrowsMessage<log::FileTaken>(HasSubstr("a.db: another run writes to it")));
+}
+
 TEST(StudyPlay, AFileThatWasCutOffGoesOnFromItsLastWholeLine) {
   const tests::Folder folder;
   {

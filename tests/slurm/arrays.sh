@@ -28,10 +28,10 @@ same ab.db whole.db sessions digests kick_decisions kick_receipts kick_outcomes 
 
 study=(frontier --matches 12 --possessions 5 --threshold 0.2,0.6)
 say sbatch --wait --array=1-4 "$top/examples/slurm/study.sbatch" fr "${study[@]}"
-"$TRIVELA" study "${study[@]}" --results whole_frontier.db > one.txt
-say "$TRIVELA" study "${study[@]}" --results frontier.db --with fr/shard_*.db > all.txt 2> /dev/null
+"$TRIVELA" study "${study[@]}" --results whole_frontier.results > one.txt
+say "$TRIVELA" study "${study[@]}" --results frontier.results --with fr/shard_*.results > all.txt 2> /dev/null
 cmp one.txt <(tail -n +3 all.txt)
-same frontier.db whole_frontier.db studies arms tallies
+cmp <(sort frontier.results) <(sort whole_frontier.results)
 
 tune=(stopped --matches 8 --possessions 5 --calibrations 0 --rounds 2 --setting policy.settle_s --setting policy.dribble_mps)
 say "$top/examples/slurm/tune.sh" 2 tune best.toml "${tune[@]}"
