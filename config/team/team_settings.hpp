@@ -37,10 +37,13 @@ struct TeamFile {
   std::string text;
 };
 
-/// What a machine of a team is configured with: settings.toml (nodes: the machine's own bus is the loopback, with a
-/// discovery tag of team and machine), team_bus.xml (Cyclone, between the machines, for team_link), robot.env
-/// (trivela-launch and systemd, and the own bus for programs of a team) and trivela.target.conf (systemd: which nodes
-/// trivela.target starts). `robot` none: the base. They name each other as they lie in `folder`, and every other file
+/// What a machine of a team is configured with:
+/// - settings.toml, for nodes: the machine's own bus is the loopback, with a discovery tag of team and machine
+/// - team_bus.xml, for team_link: Cyclone between the machines
+/// - robot.env, for trivela-launch, systemd and a team's programs: the own bus
+/// - trivela.target.conf, for systemd: which nodes trivela.target starts
+///
+/// `robot` none: the base. They name each other as they lie in `folder`, and every other file
 /// whole. `shipped_folder`: what robot.env says as TRIVELA_CONFIG; empty: nothing. The same for the same team. Throws
 /// Error for settings that do not read, and for paths that robot.env cannot say.
 std::vector<TeamFile> team_files(const Team& team, const TeamRobot* robot, const std::filesystem::path& folder,

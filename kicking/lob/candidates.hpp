@@ -28,9 +28,11 @@ struct Cluster {
   std::size_t last = 0;
 };
 
-/// Parts `returns`, in the order of their beams, where two neighbours are farther apart than gap_m plus the step of the
-/// beams at their range, or more than two beams between them have no foreground. Single returns are left out. `found`
-/// is overwritten.
+/// Parts `returns`, which are in the order of their beams, between two neighbours where
+/// - they are farther apart than gap_m plus the step of the beams at their range, or
+/// - more than two beams between them have no foreground.
+///
+/// Single returns are left out. `found` is overwritten.
 void find_clusters(std::span<const BeamReturn> returns, double step_rad, double gap_m, std::vector<Cluster>& found);
 
 /// A centre from the scanner [m].

@@ -107,8 +107,8 @@ struct AnglePoint {
   double exit_angle_rad = 0.0;
 };
 
-/// Exit angle over kick power, linear between set-points and clamped at the ends, for kickers whose angle is not
-/// constant as the paper takes it (published tables run from 30 to 48 degrees). Storage is fixed: no use of it
+/// Exit angle over kick power, linear between set-points and clamped at the ends. It is for kickers whose angle is not
+/// constant, as the paper takes it; published tables run from 30 to 48 degrees. Storage is fixed: no use of it
 /// allocates.
 class AngleTable {
  public:

@@ -18,8 +18,8 @@ inline std::optional<bus::Output<msg::StepDone>> step_done_writer(const NodeCont
   return node.writer<msg::StepDone>();
 }
 
-/// Tells the simulator, where it waits, that `node` has finished the cycle of t_ns with so many orders sent or handled
-/// and kicks given to the device, and for which kind of kick the lever shall stand.
+/// Tells the simulator, where it waits, that `node` has finished the cycle of t_ns. `orders`: sent or handled so far.
+/// `fires`: kicks given to the device so far. `lever_kind`: kind of kick for which the lever shall stand.
 inline void step_done(const std::optional<bus::Output<msg::StepDone>>& writer, std::uint8_t robot_id,
                       msg::StepNode node, std::int64_t t_ns, std::uint32_t orders = 0, std::uint32_t fires = 0,
                       std::uint8_t lever_kind = 0) {
