@@ -94,7 +94,8 @@ TEST(Coverage, DifferenceFromFewUnequalAndPartlySharedMatches) {
 
 // Matches crossed with calibrations, each of which shifts the newer policy's kicks.
 TEST(Coverage, DifferenceFromMatchesCrossedWithCalibrations) {
-  for (const auto& [matches, calibrations] : {std::pair{25U, 20U}, {30U, 6U}}) {
+  for (const auto& crossed : {std::pair{25U, 20U}, {30U, 6U}}) {
+    const std::uint32_t matches = crossed.first, calibrations = crossed.second;
     int conditional = 0;
     const double share = coverage(0.2, [&](auto& random) -> std::optional<Interval> {
       std::vector<MatchCounts> cells;

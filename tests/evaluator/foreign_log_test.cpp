@@ -210,9 +210,9 @@ TEST_F(ForeignLog, AnotherVersionOrKindIsRefused) {
 }
 
 TEST_F(ForeignLog, PagesOfAnySizeAreReadRight) {
-  for (const int page_B : {512, 65536}) {
-    exec("PRAGMA page_size = " + std::to_string(page_B) + "; VACUUM");
-    EXPECT_EQ(said(), report_) << page_B;
+  for (const int page_bytes : {512, 65536}) {
+    exec("PRAGMA page_size = " + std::to_string(page_bytes) + "; VACUUM");
+    EXPECT_EQ(said(), report_) << page_bytes;
   }
 }
 
@@ -266,10 +266,10 @@ TEST_F(ForeignLog, APromiseOfAGigabyteInASmallFileIsRefused) {
   // The blob's serial type, 2 * 20 + 12 as one byte, becomes 2 * 10^9 + 12 as five.
   SQLite::Database database(path().string(), SQLite::OPEN_READONLY);
   const int page = database.execAndGet("SELECT rootpage FROM sqlite_schema WHERE name = 'promise'").getInt();
-  const int page_B = database.execAndGet("PRAGMA page_size").getInt();
+  const int page_bytes = database.execAndGet("PRAGMA page_size").getInt();
   std::fstream file(path(), std::ios::binary | std::ios::in | std::ios::out);
   const std::string cell("\x17\x01\x06\x87\xBB\xB9\xCA\x0C", 8);  // payload of 23 bytes, rowid 1, header of 6
-  file.seekp(static_cast<std::streamoff>(page) * page_B - 24);
+  file.seekp(static_cast<std::streamoff>(page) * page_bytes - 24);
   file.write(cell.data(), static_cast<std::streamsize>(cell.size()));
   file.close();
   const std::string text = said();

@@ -92,10 +92,10 @@ class Merge : public LogTest {
     SQLite::Database(log.string(), SQLite::OPEN_READWRITE).exec(sql);
   }
 
-  static void spoil(const Path& file, std::size_t at_B, std::size_t length_B) {
+  static void spoil(const Path& file, std::size_t at_byte, std::size_t byte_count) {
     std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
-    out.seekp(static_cast<std::streamoff>(at_B));
-    out << std::string(length_B, '\xA5');
+    out.seekp(static_cast<std::streamoff>(at_byte));
+    out << std::string(byte_count, '\xA5');
   }
 };
 
@@ -253,8 +253,8 @@ TEST_F(Merge, OfATruncatedFileTakesWhatIsThereAndSaysWhatIsMissing) {
 
 TEST_F(Merge, OfADamagedFileTakesWhatLiesBeforeAndBehind) {
   const Path hurt = robot_log("hurt.db", 1, 400, 400);
-  const auto size_B = std::filesystem::file_size(hurt);
-  spoil(hurt, size_B / 2 / 4096 * 4096, 4096);
+  const auto byte_count = std::filesystem::file_size(hurt);
+  spoil(hurt, byte_count / 2 / 4096 * 4096, 4096);
   EXPECT_ANY_THROW(Reader(hurt, Check::kWhole));
   const log::Merged result = merged({hurt});
   EXPECT_THAT(said(result).missing, Contains(HasSubstr("rows that its recorder had written are not there")));

@@ -127,9 +127,9 @@ TEST_F(Attackers, WhoHasNoIdentityOfTheTeamIsHeardByNobodyOnItsNetwork) {
       {"nobody's", plain},
       {"another team's base", bus::secured(plain, others.robot(0) / "team", "team_bus")},
       {"a robot's own team_link, by its identity of the robot's bus", bus::secured(plain, keys.robot(1), "team_link")}};
-  for (const auto& [name, domain] : attackers)
+  for (const auto& attacker : attackers)
     on_host(team->attacker(), [&] {
-      bus::Writer<msg::Referee> forged{bus::Participant{domain}};
+      bus::Writer<msg::Referee> forged{bus::Participant{attacker.second}};
       for (int time = 0; time < 30; ++time) {
         msg::Referee word{};
         word.command_counter = 666;
@@ -137,7 +137,7 @@ TEST_F(Attackers, WhoHasNoIdentityOfTheTeamIsHeardByNobodyOnItsNetwork) {
         forged.write(word);
         team->pass(milliseconds{100});
       }
-      EXPECT_EQ(forged.readers(), 0u) << name;
+      EXPECT_EQ(forged.readers(), 0u) << attacker.first;
     });
   EXPECT_EQ(rows("referee WHERE command_counter = 666"), 0);
   EXPECT_EQ(team->casualties(), "");

@@ -32,8 +32,9 @@ class Capture : public AirTest {
     for (const auto& row : e2e::rows_of(log, "SELECT t_ns FROM referee")) {
       std::array<std::uint8_t, sizeof(std::int64_t)> instant{};
       std::memcpy(instant.data(), &std::get<std::int64_t>(row[0]), instant.size());
-      words += std::ranges::any_of(capture,
-                                   [&](const auto& packet) { return !std::ranges::search(packet, instant).empty(); });
+      words += std::ranges::any_of(capture, [&](const auto& packet) {
+        return std::search(packet.begin(), packet.end(), instant.begin(), instant.end()) != packet.end();
+      });
     }
     return words;
   }

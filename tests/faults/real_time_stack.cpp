@@ -40,9 +40,10 @@ RealTimeStack::RealTimeStack(double minutes, StackOptions options)
   for (const std::string& node : config::decision_path(settings_)) start(node);
   for (const char* node : {"kicker_driver", "shot_observer"}) start(node);
   if (settings_.kick_decision.standby) start("kick_decision_second");
-  for (const auto& [node, program] : programs_) {
-    if (!e2e::wait_for_change(folder_.path(), program->watch(), [&] { return !program->errors().empty(); }))
-      throw std::runtime_error{node + " says nothing"};
+  for (const auto& started : programs_) {
+    const e2e::Program& program = *started.second;
+    if (!e2e::wait_for_change(folder_.path(), program.watch(), [&] { return !program.errors().empty(); }))
+      throw std::runtime_error{started.first + " says nothing"};
   }
   const e2e::Program& recorder = *programs_.front().second;
   if (!e2e::wait_for_change(folder_.path(), recorder.watch(), [&] { return exists(log()); }))

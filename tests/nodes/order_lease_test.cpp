@@ -13,7 +13,7 @@ struct Promise {
   bool operator==(const Promise&) const = default;
 };
 
-void PrintTo(const Promise& promise, std::ostream* out) {
+void PrintTo(const Promise& promise, std::ostream* out) {  // NOLINT(readability-identifier-naming): GoogleTest's name
   *out << promise.lease_ns << " ns, strength " << promise.strength;
 }
 
