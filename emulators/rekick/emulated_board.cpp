@@ -43,7 +43,6 @@ std::vector<std::string> EmulatedBoard::tick(std::int64_t) {
 void EmulatedBoard::obey(const can::Frame& frame, std::int64_t now_ns, std::vector<std::string>& said) {
   switch (static_cast<Command>(frame.data[0])) {
     case Command::kPing:
-      ++pings_;
       return answer(emulated_pong(), said);
     case Command::kKick:
       return kick(word_of(frame), now_ns);

@@ -50,7 +50,6 @@ class EmulatedBoard final : public EmulatedDevice {
   /// Kicks that came, those that were ignored among them.
   std::uint64_t kicks_told() const { return kicks_told_; }
   std::uint64_t voltages_told() const { return voltages_told_; }
-  std::uint64_t pings() const { return pings_; }
   /// Questions for the state so far, and when the last was read.
   std::uint64_t looks() const { return looks_; }
   std::int64_t last_look_ns() const { return last_look_ns_; }
@@ -67,7 +66,6 @@ class EmulatedBoard final : public EmulatedDevice {
   std::vector<Pulse> pulses_;
   std::uint64_t kicks_told_ = 0;
   std::uint64_t voltages_told_ = 0;
-  std::uint64_t pings_ = 0;
   std::uint64_t looks_ = 0;
   std::uint64_t answers_ = 0;
   std::int64_t last_look_ns_ = 0;

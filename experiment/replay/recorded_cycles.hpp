@@ -91,10 +91,6 @@ class RecordedCycles {
   BeliefInputs belief_inputs() const;
   DecisionInputs decision_inputs() const;
 
-  /// What the robot believed and decided then; none: no row.
-  const std::optional<msg::WorldState>& recorded_world() const { return recorded_world_; }
-  const std::optional<msg::KickDecision>& recorded_decision() const { return recorded_decision_; }
-
   /// What the log's own settings give.
   const msg::WorldState& world() const { return world_; }
   const LogicDecision& decided() const { return *decided_; }

@@ -13,7 +13,6 @@ namespace trivela::hal::cia402 {
 
 inline constexpr std::uint32_t kNmt = 0x000, kSync = 0x080, kEmergency = 0x080, kTxPdo1 = 0x180, kRxPdo1 = 0x200,
                                kSdoReply = 0x580, kSdoRequest = 0x600, kHeartbeat = 0x700;
-inline constexpr std::uint8_t kLastNode = 127;
 
 /// What the network's master tells a node.
 enum class Nmt : std::uint8_t { kStart = 0x01, kStop = 0x02, kPreOperational = 0x80, kReset = 0x81 };

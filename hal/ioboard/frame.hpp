@@ -16,7 +16,7 @@ namespace trivela::hal::ioboard {
 
 enum class Command : std::uint8_t {
   kShoot = 0x02,    ///< payload[0]: pulse in units of kPulseUnit_us
-  kHeight = 0x07,   ///< payload[0]: lever, 0 home, else its position up to kHighestLever
+  kHeight = 0x07,   ///< payload[0]: lever, 0 home, else its position up to 205
   kStatus = 0x08,   ///< answer: [0] in-play switch, [1] software-on switch
   kVersion = 0x56,  ///< answer: eight characters; of the emulated board kEmulatedVersion
   kUnknown = 0xFF,  ///< answer: the board does not know the command
@@ -24,7 +24,6 @@ enum class Command : std::uint8_t {
 
 inline constexpr double kPulseUnit_us = 128.0;
 inline constexpr std::string_view kEmulatedVersion = "emulated";
-inline constexpr std::uint8_t kHighestLever = 205;
 
 using Payload = std::array<std::uint8_t, 8>;
 
