@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
-#include <utility>
 
-#include "bus/domain/cyclone.hpp"
 #include "bus/domain/qos.hpp"
 #include "bus/domain/reader_health.hpp"
 

@@ -2,8 +2,6 @@
 
 #include <dds/dds.h>
 
-#include "bus/domain/cyclone.hpp"
-
 namespace trivela::bus {
 
 Waitset::Waitset(const Participant& participant)

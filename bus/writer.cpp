@@ -6,7 +6,6 @@
 #include <map>
 #include <vector>
 
-#include "bus/domain/cyclone.hpp"
 #include "bus/domain/qos.hpp"
 #include "bus/waitset.hpp"
 

@@ -4,11 +4,9 @@
 
 #include <filesystem>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "hal/bus/sim_range_finder.hpp"
-#include "hal/gyro.hpp"
 #include "hal/line/line.hpp"
 #include "hal/mti/mti.hpp"
 #include "hal/scip/scip_range_finder.hpp"

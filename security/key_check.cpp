@@ -5,7 +5,6 @@
 
 #include <exception>
 
-#include "security/certificates.hpp"
 #include "security/rights.hpp"
 
 namespace trivela::security {

@@ -14,7 +14,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "security/certificates.hpp"
 #include "security/rights.hpp"
 
 namespace trivela::security {

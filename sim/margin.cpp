@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "kicking/outcome/outcome.hpp"
-
 namespace trivela::sim {
 
 double margin_m(const Crossing& crossing, const kicking::Goal& goal, const kicking::Ball& ball) {

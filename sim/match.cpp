@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "kicking/geometry/time.hpp"
 #include "sim/kicker/kicker.hpp"

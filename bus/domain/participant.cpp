@@ -3,11 +3,9 @@
 #include <dds/dds.h>
 #include <fmt/core.h>
 
-#include <chrono>
 #include <map>
 #include <mutex>
 #include <set>
-#include <string>
 
 #include "bus/domain/cyclone.hpp"
 #include "bus/domain/process.hpp"

@@ -21,7 +21,6 @@
 #include <filesystem>
 #include <mutex>
 #include <string>
-#include <vector>
 
 #include "bus/domain/cyclone.hpp"
 

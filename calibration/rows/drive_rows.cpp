@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 
-#include "calibration/rows/recorded_drives.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::calibration {

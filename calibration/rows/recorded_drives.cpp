@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "calibration/rows/ball_sightings.sql.hpp"
 #include "calibration/rows/drive_kicks.sql.hpp"

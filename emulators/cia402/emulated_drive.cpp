@@ -1,8 +1,5 @@
 #include "emulators/cia402/emulated_drive.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace trivela::hal::cia402 {
 namespace {
 

@@ -9,7 +9,6 @@
 #include <array>
 #include <cerrno>
 #include <stdexcept>
-#include <utility>
 
 namespace trivela::hal {
 namespace {

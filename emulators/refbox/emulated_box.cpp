@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "hal/line/descriptor.hpp"
-#include "hal/refbox/words.hpp"
 
 namespace trivela::hal::refbox {
 namespace {

@@ -5,8 +5,6 @@
 #include <iterator>
 #include <limits>
 
-#include "idl/messages.hpp"
-
 namespace trivela::hal {
 namespace {
 

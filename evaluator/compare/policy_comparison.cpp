@@ -6,10 +6,8 @@
 #include <array>
 #include <map>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
-#include "evaluator/counting/kick_counts.hpp"
 #include "evaluator/stats/test_plan.hpp"
 
 namespace trivela::evaluator {

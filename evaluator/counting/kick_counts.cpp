@@ -4,10 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 namespace trivela::evaluator {
 namespace {

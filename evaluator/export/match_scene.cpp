@@ -3,7 +3,6 @@
 #include <numbers>
 #include <optional>
 
-#include "evaluator/mcap/messages.hpp"
 #include "evaluator/timeline/decided_segments.hpp"
 #include "kicking/constants.hpp"
 #include "log/schema/queries.hpp"

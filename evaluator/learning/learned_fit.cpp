@@ -13,7 +13,6 @@
 #include "evaluator/metrics/predicted_kicks.sql.hpp"
 #include "evaluator/sessions/log_sessions.hpp"
 #include "evaluator/stats/clustered.hpp"
-#include "evaluator/stats/counts/interval.hpp"
 #include "evaluator/stats/logistic_ridge.hpp"
 #include "kicking/outcome/outcome.hpp"
 #include "log/read/reader.hpp"

@@ -9,7 +9,6 @@
 
 #include "evaluator/metrics/compared_sessions.sql.hpp"
 #include "evaluator/metrics/kick_words.sql.hpp"
-#include "evaluator/sessions/session_facts.hpp"
 
 namespace trivela::evaluator {
 namespace {

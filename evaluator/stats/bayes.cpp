@@ -4,7 +4,6 @@
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/tools/roots.hpp>
-#include <cmath>
 
 namespace trivela::evaluator::stats {
 namespace {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "evaluator/render/svg_chart.hpp"
-#include "kicking/alignment/alignment.hpp"
 #include "kicking/ballistics/crossing.hpp"
 #include "kicking/outcome/outcome.hpp"
 

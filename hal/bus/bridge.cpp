@@ -2,15 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
-#include <utility>
 
 #include "bus/node.hpp"
 #include "hal/open.hpp"
-#include "idl/messages.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/optional_double.hpp"
 

@@ -14,7 +14,6 @@
 #include <cerrno>
 #include <cstring>
 #include <future>
-#include <string>
 #include <thread>
 #include <vector>
 

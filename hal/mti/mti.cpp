@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <numeric>

@@ -4,8 +4,6 @@
 #include <cstdio>
 #include <numbers>
 
-#include "hal/scip/reply.hpp"
-
 namespace trivela::hal::scip {
 namespace {
 

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include "hal/scip/reply.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::hal::scip {

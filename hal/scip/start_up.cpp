@@ -1,7 +1,5 @@
 #include "hal/scip/start_up.hpp"
 
-#include "hal/scip/reply.hpp"
-
 namespace trivela::hal::scip {
 
 std::string StartUp::request() const {

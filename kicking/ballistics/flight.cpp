@@ -1,7 +1,5 @@
 #include "kicking/ballistics/flight.hpp"
 
-#include <cmath>
-
 #include "kicking/ballistics/numerics.hpp"
 #include "kicking/geometry/time.hpp"
 

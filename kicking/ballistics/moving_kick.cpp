@@ -1,7 +1,5 @@
 #include "kicking/ballistics/moving_kick.hpp"
 
-#include <cmath>
-
 #include "kicking/ballistics/numerics.hpp"
 
 namespace trivela::kicking {

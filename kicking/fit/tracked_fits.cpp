@@ -4,9 +4,7 @@
 #include <Eigen/QR>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
-#include <vector>
 
 #include "kicking/ballistics/crossing.hpp"
 

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "kicking/ballistics/crossing.hpp"
 #include "kicking/fit/tracked_fits.hpp"

@@ -1,7 +1,5 @@
 #include "kicking/geometry/frames.hpp"
 
-#include <cmath>
-
 namespace trivela::kicking {
 
 Eigen::Vector2d rotate(const Eigen::Vector2d& vector, double angle_rad) {

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
-#include <vector>
 
 #include "kicking/geometry/time.hpp"
 #include "kicking/lob/assessment.hpp"

@@ -1,6 +1,5 @@
 #include "kicking/outcome/outcome.hpp"
 
-#include <cmath>
 #include <numbers>
 
 namespace trivela::kicking {

@@ -1,7 +1,6 @@
 #include "kicking/policy/drive.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace trivela::kicking {
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <exception>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 #include "kicking/policy/policy_output.hpp"
 

@@ -12,7 +12,6 @@
 #include <ctime>
 #include <fstream>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 #include <system_error>
 

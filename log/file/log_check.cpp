@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-
 #include "log/file/log_file.hpp"
 #include "log/file/session_tallies.hpp"
 #include "log/schema/row_digest.hpp"

@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 #include <set>
-#include <stdexcept>
 
 #include "log/schema/schema_check.hpp"
 

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <exception>
 #include <sstream>
-#include <stdexcept>
 #include <system_error>
 
 namespace trivela::log {

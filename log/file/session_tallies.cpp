@@ -1,6 +1,5 @@
 #include "log/file/session_tallies.hpp"
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,18 +7,14 @@
 #include <cmath>
 #include <optional>
 #include <set>
-#include <string>
-#include <string_view>
 
 #include "kicking/geometry/time.hpp"
 #include "log/file/decisions_of.sql.hpp"
 #include "log/file/driver_counts_of.sql.hpp"
 #include "log/file/first_decisions_of.sql.hpp"
 #include "log/file/kicked_tracks_of.sql.hpp"
-#include "log/file/log_file.hpp"
 #include "log/file/played_spans_of.sql.hpp"
 #include "log/file/recorded_halves_of.sql.hpp"
-#include "log/schema/queries.hpp"
 #include "log/schema/row_digest.hpp"
 
 namespace trivela::log {

@@ -11,7 +11,6 @@
 
 #include "log/file/new_file.hpp"
 #include "log/file/session_tallies.hpp"
-#include "log/merge/merge_source.hpp"
 #include "log/merge/merged_log.hpp"
 #include "log/schema/row_digest.hpp"
 #include "log/schema/schema.hpp"

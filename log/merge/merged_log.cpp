@@ -6,10 +6,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
-#include <string>
-#include <string_view>
 #include <variant>
-#include <vector>
 
 #include "log/file/files_beside.hpp"
 #include "log/schema/row_digest.hpp"

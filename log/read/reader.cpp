@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "log/file/log_check.hpp"
 #include "log/file/log_file.hpp"
 #include "log/file/session_tallies.hpp"
 #include "log/read/stream_search.hpp"

@@ -1,7 +1,5 @@
 #include "log/read/stream_table.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <regex>
 #include <sstream>

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <charconv>
-#include <span>
 #include <stdexcept>
 
 namespace trivela::log {

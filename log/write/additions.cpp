@@ -5,7 +5,6 @@
 #include <sqlite3.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "kicking/text/printable.hpp"
 #include "log/file/files_beside.hpp"

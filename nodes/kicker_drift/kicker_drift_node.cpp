@@ -5,10 +5,7 @@
 #include <span>
 #include <tuple>
 #include <utility>
-#include <vector>
 
-#include "evaluator/drift/drift_watch.hpp"
-#include "idl/messages.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/optional_double.hpp"
 #include "nodes/runtime/node_main.hpp"

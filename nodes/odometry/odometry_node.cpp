@@ -1,6 +1,5 @@
 #include "nodes/odometry/odometry_node.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "hal/open.hpp"

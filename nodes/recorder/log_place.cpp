@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "nodes/recorder/recorder_node.hpp"
-#include "nodes/runtime/node_context.hpp"
 #include "robot/recording/log_family.hpp"
 
 namespace trivela::nodes {

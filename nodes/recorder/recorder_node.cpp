@@ -3,18 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
-#include <optional>
 #include <type_traits>
-#include <utility>
 
 #include "bus/executor.hpp"
 #include "kicking/geometry/time.hpp"
 #include "log/write/additions.hpp"
 #include "nodes/recorder/log_place.hpp"
 #include "nodes/runtime/lockstep.hpp"
-#include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/node_main.hpp"
 #include "robot/recording/message_row.hpp"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "kicking/geometry/time.hpp"
-#include "nodes/runtime/node_context.hpp"
 
 namespace trivela::nodes {
 namespace {

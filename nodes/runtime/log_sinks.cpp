@@ -2,9 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cctype>
-#include <string_view>
 
 namespace trivela::nodes {
 namespace {

@@ -9,10 +9,8 @@
 #include <csignal>
 #include <deque>
 #include <filesystem>
-#include <vector>
 
 #include "bus/domain/cyclone.hpp"
-#include "bus/domain/domain.hpp"
 #include "bus/domain/process.hpp"
 #include "bus/domain/reader_health.hpp"
 #include "bus/executor.hpp"

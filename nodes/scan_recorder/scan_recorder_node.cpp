@@ -10,7 +10,6 @@
 #include "hal/open.hpp"
 #include "log/file/new_file.hpp"
 #include "nodes/runtime/lockstep.hpp"
-#include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/node_main.hpp"
 
 namespace trivela::nodes {

@@ -12,7 +12,6 @@
 #include "config/field.hpp"
 #include "config/scenario/scenario.hpp"
 #include "emulators/sim/sim_messages.hpp"
-#include "kicking/geometry/time.hpp"
 #include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
 #include "sim/laser/laser.hpp"

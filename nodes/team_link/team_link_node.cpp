@@ -6,7 +6,6 @@
 
 #include "bus/executor.hpp"
 #include "nodes/runtime/node_main.hpp"
-#include "robot/team/team_summary.hpp"
 
 namespace trivela::nodes {
 namespace {

@@ -13,10 +13,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
-#include <optional>
 #include <set>
-#include <string>
-#include <utility>
 
 #include "bus/executor.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "calibration/scanner_session.hpp"
 #include "kicking/geometry/time.hpp"
-#include "pages/lob/lob_page.hpp"
 
 namespace trivela::pages {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "kicking/geometry/time.hpp"
-#include "pages/lob/lob_page.hpp"
 
 namespace trivela::pages {
 namespace {

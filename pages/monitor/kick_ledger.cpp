@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "evaluator/stats/confidence_sequence.hpp"
 

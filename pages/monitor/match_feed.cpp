@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "monitor/bus_picture.hpp"
-#include "pages/monitor/match_scene.hpp"
 
 namespace trivela::pages {
 namespace {

@@ -1,7 +1,6 @@
 #include "pages/monitor/match_scene.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -9,7 +8,6 @@
 
 #include "evaluator/timeline/decided_segments.hpp"
 #include "kicking/geometry/angle.hpp"
-#include "pages/monitor/kick_ledger.hpp"
 #include "pages/monitor/match_feed.hpp"
 #include "pages/monitor/monitor.css.hpp"
 #include "pages/monitor/monitor.html.hpp"

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "pages/serve/connections.hpp"
-#include "pages/serve/site.hpp"
 
 namespace trivela::pages {
 

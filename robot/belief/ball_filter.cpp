@@ -1,7 +1,5 @@
 #include "robot/belief/ball_filter.hpp"
 
-#include <cmath>
-
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {

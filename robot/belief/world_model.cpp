@@ -6,7 +6,6 @@
 #include <initializer_list>
 #include <iterator>
 
-#include "idl/messages.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {

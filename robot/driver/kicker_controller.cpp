@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "idl/messages.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {

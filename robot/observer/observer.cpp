@@ -4,8 +4,6 @@
 #include <iterator>
 #include <tuple>
 
-#include "idl/messages.hpp"
-
 namespace trivela::robot {
 namespace {
 

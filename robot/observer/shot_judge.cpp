@@ -6,7 +6,6 @@
 
 #include "kicking/constants.hpp"
 #include "kicking/geometry/time.hpp"
-#include "kicking/outcome/outcome.hpp"
 #include "robot/observer/flight_hypotheses.hpp"
 
 namespace trivela::robot {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "kicking/estimate.hpp"
 #include "kicking/geometry/time.hpp"

@@ -1,11 +1,9 @@
 #include "robot/odometry/wheel_odometry.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <span>
 
-#include "idl/messages.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {

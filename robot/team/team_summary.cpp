@@ -7,8 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "idl/messages.hpp"
-
 namespace trivela::robot {
 namespace {
 

@@ -10,8 +10,6 @@
 
 #include "kicking/geometry/time.hpp"
 #include "kicking/model/robot_model.hpp"
-#include "kicking/random/draws.hpp"
-#include "sim/kicker/flight.hpp"
 
 namespace trivela::sim {
 

@@ -1,7 +1,6 @@
 #include "sim/laser/laser.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>

@@ -7,7 +7,6 @@
 #include "kicking/geometry/time.hpp"
 #include "kicking/random/draws.hpp"
 #include "sim/kicker/flight.hpp"
-#include "sim/laser/laser.hpp"
 
 namespace trivela::sim {
 namespace {

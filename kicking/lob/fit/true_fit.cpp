@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "kicking/geometry/time.hpp"
-#include "kicking/lob/fit/flight_model.hpp"
 
 namespace trivela::kicking::lob {
 namespace {
