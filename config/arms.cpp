@@ -12,8 +12,7 @@
 
 namespace trivela::config {
 
-template <class V>
-void fields(V& v, ArmFields& a) {
+void fields(auto& v, ArmFields& a) {
   v("name", a.name);
   v("policy", a.policy);
   v("table", a.table);

@@ -1,12 +1,10 @@
 #include "config/field.hpp"
 
 #include "config/text/toml_source.hpp"
-#include "kicking/policy/match_rules.hpp"
 
 namespace trivela::config {
 
-template <class V>
-void fields(V& v, FieldFile& f) {
+void fields(auto& v, FieldFile& f) {
   v("field", f.field);
   v("rules", f.rules);
 }

@@ -28,8 +28,7 @@ struct StateFile {
   kicking::KickerEstimate estimate{};  ///< spreads and kicks
 };
 
-template <class V>
-void fields(V& v, StateFile& f) {
+void fields(auto& v, StateFile& f) {
   v("robot", f.robot);
   v("robot_id", f.robot_id);
   v("utc_s", f.utc_s);

@@ -9,8 +9,7 @@
 
 namespace trivela::kicking {
 
-template <class V>
-void fields(V& v, DriveStyle& s) {
+void fields(auto& v, DriveStyle& s) {
   v("speed_ratio", s.speed_ratio, Range{-1.0, 2.0});
   v("side_ratio", s.side_ratio, Range{0.0, 10.0});
   v("brake_ratio", s.brake_ratio, Range{0.3, 5.0});
@@ -50,8 +49,7 @@ struct LearnedToml {
 inline constexpr Range kAny{-1e6, 1e6};
 inline constexpr Range kNotNegative{0.0, 1e9};
 
-template <class V>
-void fields(V& v, ModelColumns& m) {
+void fields(auto& v, ModelColumns& m) {
   v("features", m.features);
   v("intercept", m.intercept, kAny);
   v("weights", m.weights, kAny);
@@ -59,8 +57,7 @@ void fields(V& v, ModelColumns& m) {
   v("scales", m.scales, Range{1e-9, 1e6});
 }
 
-template <class V>
-void fields(V& v, DecisionColumns& d) {
+void fields(auto& v, DecisionColumns& d) {
   v("fire_features", d.fire_features);
   v("fire_weights", d.fire_weights, Range{-5.0, 5.0});
   LearnedDecision& n = d.numbers;
@@ -80,8 +77,7 @@ void fields(V& v, DecisionColumns& d) {
   v("style", d.style, DriveStyle{});
 }
 
-template <class V>
-void fields(V& v, TrainingOrigin& t) {
+void fields(auto& v, TrainingOrigin& t) {
   v("source", t.source);
   v("date", t.date);
   v("files", t.files);
@@ -90,8 +86,7 @@ void fields(V& v, TrainingOrigin& t) {
   v("ridge", t.ridge, kNotNegative);
 }
 
-template <class V>
-void fields(V& v, HeldOut& h) {
+void fields(auto& v, HeldOut& h) {
   v("matches", h.matches, kNotNegative);
   v("kicks", h.kicks, kNotNegative);
   v("log_loss_learned", h.log_loss_learned, kNotNegative);
@@ -102,8 +97,7 @@ void fields(V& v, HeldOut& h) {
   v("better", h.better);
 }
 
-template <class V>
-void fields(V& v, LearnedToml& f) {
+void fields(auto& v, LearnedToml& f) {
   v("model", f.model);
   v("decision", f.decision);
   v("training", f.training);
@@ -112,27 +106,22 @@ void fields(V& v, LearnedToml& f) {
 
 namespace {
 
-LearnedModel::Row row_of(const std::vector<double>& column, const char* key, const std::string& file) {
-  LearnedModel::Row row{};
-  if (column.size() != row.size()) {
-    throw Error{fmt::format("{}: model.{} has {} entries, need one for each of the {} features", file, key,
-                            column.size(), row.size())};
-  }
+void require_features(const std::vector<std::string>& read, const auto& own, const char* key, const std::string& file) {
+  if (std::ranges::equal(read, own)) return;
+  throw Error{fmt::format("{}: {} are not those of this program: {}", file, key, fmt::join(own, ", "))};
+}
+
+void take_row(const std::vector<double>& column, const char* key, const std::string& file, auto& row) {
+  if (column.size() != row.size())
+    throw Error{fmt::format("{}: {} has {} entries, need one for each of the {} features", file, key, column.size(),
+                            row.size())};
   std::ranges::copy(column, row.begin());
-  return row;
 }
 
 LearnedDecision decision_of(const DecisionColumns& read, const std::string& file) {
-  if (!std::ranges::equal(read.fire_features, kicking::kFireFeatureNames)) {
-    throw Error{fmt::format("{}: decision.fire_features are not those of this program: {}", file,
-                            fmt::join(kicking::kFireFeatureNames, ", "))};
-  }
+  require_features(read.fire_features, kicking::kFireFeatureNames, "decision.fire_features", file);
   LearnedDecision decision = read.numbers;
-  if (read.fire_weights.size() != decision.fire_weights.size()) {
-    throw Error{fmt::format("{}: decision.fire_weights has {} entries, need one for each of the {} features", file,
-                            read.fire_weights.size(), decision.fire_weights.size())};
-  }
-  std::ranges::copy(read.fire_weights, decision.fire_weights.begin());
+  take_row(read.fire_weights, "decision.fire_weights", file, decision.fire_weights);
   if (read.style.empty() || read.style.size() > kicking::kDriveStyles) {
     throw Error{
         fmt::format("{}: {} of [[decision.style]], need 1 to {}", file, read.style.size(), kicking::kDriveStyles)};
@@ -149,33 +138,28 @@ DecisionColumns columns_of(const LearnedDecision& decision) {
           .style = {decision.style.begin(), decision.style.begin() + static_cast<std::ptrdiff_t>(decision.styles)}};
 }
 
-std::vector<double> column_of(const LearnedModel::Row& row) { return {row.begin(), row.end()}; }
-
 }  // namespace
 
 LearnedModelFile load_learned_model(const std::filesystem::path& path) {
   LearnedToml toml;
   const TomlSource source = parse_file(path);
   read_into(source, toml);
-  if (!std::ranges::equal(toml.model.features, LearnedModel::kFeatureNames)) {
-    throw Error{fmt::format("{}: model.features are not those of this program: {}", source.file,
-                            fmt::join(LearnedModel::kFeatureNames, ", "))};
-  }
-  return {{.intercept = toml.model.intercept,
-           .weights = row_of(toml.model.weights, "weights", source.file),
-           .means = row_of(toml.model.means, "means", source.file),
-           .scales = row_of(toml.model.scales, "scales", source.file),
-           .decision = decision_of(toml.decision, source.file)},
-          toml.training,
-          toml.held_out};
+  require_features(toml.model.features, LearnedModel::kFeatureNames, "model.features", source.file);
+  LearnedModel model{.intercept = toml.model.intercept};
+  take_row(toml.model.weights, "model.weights", source.file, model.weights);
+  take_row(toml.model.means, "model.means", source.file, model.means);
+  take_row(toml.model.scales, "model.scales", source.file, model.scales);
+  model.decision = decision_of(toml.decision, source.file);
+  return {model, toml.training, toml.held_out};
 }
 
 std::string to_toml_text(const LearnedModelFile& file) {
   LearnedToml toml{{}, columns_of(file.model.decision), file.training, file.held_out};
-  toml.model.intercept = file.model.intercept;
-  toml.model.weights = column_of(file.model.weights);
-  toml.model.means = column_of(file.model.means);
-  toml.model.scales = column_of(file.model.scales);
+  const LearnedModel& model = file.model;
+  toml.model.intercept = model.intercept;
+  toml.model.weights.assign(model.weights.begin(), model.weights.end());
+  toml.model.means.assign(model.means.begin(), model.means.end());
+  toml.model.scales.assign(model.scales.begin(), model.scales.end());
   return to_toml(toml);
 }
 

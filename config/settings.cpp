@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
 #include "config/field.hpp"
 #include "config/learned_model.hpp"
@@ -72,7 +71,6 @@ void check_lockstep(const Settings& settings, const std::string& source) {
                     source, key, text_of(device))};
   };
   check("hal.wheels", settings.hal.wheels);
-  check("hal.gyro", settings.hal.gyro);
   check("hal.gyro", settings.hal.gyro);
   check("hal.kicker", settings.hal.kicker);
   if (settings.scan_recorder.enabled) check("scan_recorder.device", settings.scan_recorder.device);

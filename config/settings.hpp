@@ -87,6 +87,14 @@ struct KickDecision {
   double order_validity_s = 0.05;  ///< an order older than this is refused
   DriveMode drive = DriveMode::kAlways;
   bool standby = false;  ///< a second decision node stands by; in real time alone
+
+  /// From now on this policy plays every possession of every robot.
+  void put_in_charge(kicking::PolicyName policy) {
+    policy_by_half = {policy};
+    policy_by_robot.clear();
+    random.clear();
+    random_probabilities.clear();
+  }
 };
 
 /// What a kicker's board may be able to do beyond firing (hal::KickerCapabilities).

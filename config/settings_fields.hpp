@@ -6,73 +6,34 @@
 #include "kicking/policy/match_rules.hpp"
 
 /// The keys of default.toml, each named once.
-namespace trivela::config {
-
-template <>
-struct Names<kicking::PolicyName> {
-  static std::vector<std::pair<std::string_view, kicking::PolicyName>> entries() {
-    std::vector<std::pair<std::string_view, kicking::PolicyName>> all;
-    for (const kicking::Policy* policy : kicking::policies())
-      all.emplace_back(policy->facts().name, static_cast<kicking::PolicyName>(all.size()));
-    return all;
-  }
-};
-template <>
-struct Names<kicking::HeightLaw> {
-  static constexpr std::array<std::pair<std::string_view, kicking::HeightLaw>, 3> entries{
-      {{"paper", kicking::HeightLaw::kPaper},
-       {"extended_range", kicking::HeightLaw::kExtendedRange},
-       {"exact", kicking::HeightLaw::kExact}}};
-};
-template <>
-struct Names<kicking::Objective> {
-  static constexpr std::array<std::pair<std::string_view, kicking::Objective>, 2> entries{
-      {{"on_target", kicking::Objective::kOnTarget}, {"goal", kicking::Objective::kGoal}}};
-};
-
-template <>
-struct Names<kicking::MotionLaw> {
-  static constexpr std::array<std::pair<std::string_view, kicking::MotionLaw>, 2> entries{
-      {{"paper", kicking::MotionLaw::kPaper}, {"exact", kicking::MotionLaw::kExact}}};
-};
-template <>
-struct Names<kicking::AlphaLaw> {
-  static constexpr std::array<std::pair<std::string_view, kicking::AlphaLaw>, 2> entries{
-      {{"paper_line", kicking::AlphaLaw::kPaperLine}, {"physical", kicking::AlphaLaw::kPhysical}}};
-};
-template <>
-struct Names<kicking::Extension> {
-  static constexpr std::array<std::pair<std::string_view, kicking::Extension>, 2> entries{
-      {{"max", kicking::Extension::kMax}, {"add", kicking::Extension::kAdd}}};
-};
-
-template <>
-struct Names<Capability> {
-  static constexpr std::array<std::pair<std::string_view, Capability>, 4> entries{
-      {{"charge_control", Capability::kChargeControl},
-       {"voltage", Capability::kVoltage},
-       {"discharge", Capability::kDischarge},
-       {"watchdog", Capability::kWatchdog}}};
-};
-
-template <>
-struct Names<SelfCalibrationMode> {
-  static constexpr std::array<std::pair<std::string_view, SelfCalibrationMode>, 3> entries{
-      {{"off", SelfCalibrationMode::kOff}, {"shadow", SelfCalibrationMode::kShadow}, {"on", SelfCalibrationMode::kOn}}};
-};
-
-template <>
-struct Names<DriveMode> {
-  static constexpr std::array<std::pair<std::string_view, DriveMode>, 3> entries{
-      {{"always", DriveMode::kAlways}, {"with_ball", DriveMode::kWithBall}, {"advice", DriveMode::kAdvice}}};
-};
-
-}  // namespace trivela::config
-
 namespace trivela::kicking {
 
-template <class V>
-void fields(V& v, Goal& g) {
+inline config::EnumNames<PolicyName> names_of(PolicyName) {
+  config::EnumNames<PolicyName> all;
+  for (const Policy* policy : policies()) all.emplace_back(policy->facts().name, static_cast<PolicyName>(all.size()));
+  return all;
+}
+
+inline config::EnumNames<HeightLaw> names_of(HeightLaw) {
+  using enum HeightLaw;
+  return {{"paper", kPaper}, {"extended_range", kExtendedRange}, {"exact", kExact}};
+}
+
+inline config::EnumNames<Objective> names_of(Objective) {
+  return {{"on_target", Objective::kOnTarget}, {"goal", Objective::kGoal}};
+}
+
+inline config::EnumNames<MotionLaw> names_of(MotionLaw) {
+  return {{"paper", MotionLaw::kPaper}, {"exact", MotionLaw::kExact}};
+}
+
+inline config::EnumNames<AlphaLaw> names_of(AlphaLaw) {
+  return {{"paper_line", AlphaLaw::kPaperLine}, {"physical", AlphaLaw::kPhysical}};
+}
+
+inline config::EnumNames<Extension> names_of(Extension) { return {{"max", Extension::kMax}, {"add", Extension::kAdd}}; }
+
+void fields(auto& v, Goal& g) {
   using config::Range;
   v("y_m", g.y_m, Range{1.0, 30.0});
   v("half_width_m", g.half_width_m, Range{0.3, 5.0});
@@ -80,8 +41,7 @@ void fields(V& v, Goal& g) {
   v("post_width_m", g.post_width_m, Range{0.0, 0.5});
 }
 
-template <class V>
-void fields(V& v, AlignmentRule& a) {
+void fields(auto& v, AlignmentRule& a) {
   using config::Degrees, config::Range;
   v("half_width_m", a.half_width_m, Range{0.0, 2.0});
   v("extension", a.extension);
@@ -89,8 +49,7 @@ void fields(V& v, AlignmentRule& a) {
   v("beta_limit_deg", Degrees{a.beta_limit_rad}, Range{0.0, 85.0});
 }
 
-template <class V>
-void fields(V& v, TestDriveConfig& t) {
+void fields(auto& v, TestDriveConfig& t) {
   using config::Degrees, config::Range;
   v("kicks_per_level", t.kicks_per_level, Range{1, 1000});
   v("aim_tolerance_deg", Degrees{t.aim_tolerance_rad}, Range{0.05, 30.0});
@@ -112,8 +71,7 @@ void fields(V& v, TestDriveConfig& t) {
   v("turn_kicks_per_step", t.turn_kicks_per_step, Range{1, 1000});
 }
 
-template <class V>
-void fields(V& v, PredictiveConfig& p) {
+void fields(auto& v, PredictiveConfig& p) {
   using config::Degrees, config::Range;
   v("threshold", p.threshold, Range{0.0, 1.0});
   v("goal_threshold", p.goal_threshold, Range{0.0, 1.0});
@@ -139,8 +97,7 @@ void fields(V& v, PredictiveConfig& p) {
   v("opponent_places", p.opponent_places);
 }
 
-template <class V>
-void fields(V& v, KickerChange& c) {
+void fields(auto& v, KickerChange& c) {
   using config::Degrees, config::Range;
   v("speed_sd_ratio", c.speed_sd_ratio, Range{0.001, 0.5});
   v("elevation_sd_deg", Degrees{c.elevation_sd_rad}, Range{0.01, 20.0});
@@ -150,8 +107,7 @@ void fields(V& v, KickerChange& c) {
   v("jump_chance", c.jump_chance, Range{1e-6, 0.5});
 }
 
-template <class V>
-void fields(V& v, KeeperConfig& k) {
+void fields(auto& v, KeeperConfig& k) {
   using config::Range;
   v("reaction_s", k.reaction_s, Range{0.0, 2.0});
   v("speed_mps", k.speed_mps, Range{0.0, 20.0});
@@ -170,8 +126,7 @@ struct OwnSettings {
   std::vector<double>& values;
 };
 
-template <class V>
-void fields(V& v, OwnSettings& own) {
+void fields(auto& v, OwnSettings& own) {
   for (std::size_t i = 0; i < own.values.size(); ++i)
     v(own.policy.settings()[i].key, own.values[i], own.policy.settings()[i].range);
 }
@@ -182,8 +137,7 @@ struct OwnPolicies {
   std::vector<std::vector<double>>& values;
 };
 
-template <class V>
-void fields(V& v, OwnPolicies& own) {
+void fields(auto& v, OwnPolicies& own) {
   if constexpr (requires { v.tables(); }) {
     for (const auto& table : v.tables()) v.require(table.first, [&] { declare_policy(table.first, table.second); });
     complete_own_settings(own.values);
@@ -194,8 +148,7 @@ void fields(V& v, OwnPolicies& own) {
   }
 }
 
-template <class V>
-void fields(V& v, PolicyConfig& p) {
+void fields(auto& v, PolicyConfig& p) {
   using config::Degrees, config::Range;
   v("objective", p.objective);
   v("corner_margin_m", p.corner_margin_m, Range{0.0, 1.0});
@@ -234,8 +187,31 @@ void fields(V& v, PolicyConfig& p) {
 
 namespace trivela::config {
 
-template <class V>
-void fields(V& v, Run& r) {
+inline EnumNames<Capability> names_of(Capability) {
+  using enum Capability;
+  return {
+      {"charge_control", kChargeControl}, {"voltage", kVoltage}, {"discharge", kDischarge}, {"watchdog", kWatchdog}};
+}
+
+inline EnumNames<SelfCalibrationMode> names_of(SelfCalibrationMode) {
+  using enum SelfCalibrationMode;
+  return {{"off", kOff}, {"shadow", kShadow}, {"on", kOn}};
+}
+
+inline EnumNames<DriveMode> names_of(DriveMode) {
+  using enum DriveMode;
+  return {{"always", kAlways}, {"with_ball", kWithBall}, {"advice", kAdvice}};
+}
+
+inline EnumNames<SimulatedDevices> names_of(SimulatedDevices) {
+  return {{"bus", SimulatedDevices::kBus}, {"emulated", SimulatedDevices::kEmulated}};
+}
+
+inline EnumNames<TeamColour> names_of(TeamColour) {
+  return {{"cyan", TeamColour::kCyan}, {"magenta", TeamColour::kMagenta}};
+}
+
+void fields(auto& v, Run& r) {
   v("team", r.team);
   v("robot_id", r.robot_id, Range{1, 255});
   v("cycle_s", r.cycle_s, Range{0.0005, 0.5});
@@ -251,35 +227,28 @@ void fields(V& v, Run& r) {
   v("log_level", r.log_level);
 }
 
-template <class V>
-void fields(V& v, FieldLines& f) {
-  v("side_line_x_m", f.side_line_x_m, Range{1.0, 30.0});
-}
+void fields(auto& v, FieldLines& f) { v("side_line_x_m", f.side_line_x_m, Range{1.0, 30.0}); }
 
-template <class V>
-void fields(V& v, Domain& d) {
+void fields(auto& v, Domain& d) {
   v("domain_id", d.domain_id, Range{0, 100});
   v("tag", d.tag);
   v("dds_file", d.dds_file);
 }
 
-template <class V>
-void fields(V& v, IoBoardDevice& b) {
+void fields(auto& v, IoBoardDevice& b) {
   v("port", b.port);
   v("pulse_us_per_power", b.pulse_us_per_power, Range{0.1, 32640.0});
   v("lever", b.lever, Range{0, 205});
   v("charge_time_s", b.charge_time_s, Range{0.0, 60.0});
 }
 
-template <class V>
-void fields(V& v, ReKickDevice& b) {
+void fields(auto& v, ReKickDevice& b) {
   v("port", b.port);
   v("pulse_us_per_power", b.pulse_us_per_power, Range{0.01, 3499.0});
   v("max_voltage_v", b.max_voltage_v, Range{1, 330});
 }
 
-template <class V>
-void fields(V& v, Cia402Device& d) {
+void fields(auto& v, Cia402Device& d) {
   v("port", d.port);
   v("nodes", d.nodes, Range{1, 127});
   v("reversed", d.reversed, Range{1, 127});
@@ -293,21 +262,18 @@ void fields(V& v, Cia402Device& d) {
   v("cycle_s", d.cycle_s, Range{0.002, 0.05});
 }
 
-template <class V>
-void fields(V& v, MtiDevice& d) {
+void fields(auto& v, MtiDevice& d) {
   v("port", d.port);
   v("upside_down", d.upside_down);
 }
 
-template <class V>
-void fields(V& v, Hal& h) {
+void fields(auto& v, Hal& h) {
   v("wheels", h.wheels);
   v("gyro", h.gyro);
   v("kicker", h.kicker);
 }
 
-template <class V>
-void fields(V& v, Odometry& o) {
+void fields(auto& v, Odometry& o) {
   v("wheel_sd_radps", o.wheel_sd_radps, Range{1e-6, 100.0});
   v("gyro_sd_radps", o.gyro_sd_radps, Range{1e-6, 10.0});
   v("drive_timeout_s", o.drive_timeout_s, Range{0.01, 10.0});
@@ -316,8 +282,7 @@ void fields(V& v, Odometry& o) {
   v("heading_drift_ratio", o.heading_drift_ratio, Range{0.0, 1.0});
 }
 
-template <class V>
-void fields(V& v, WorldState& w) {
+void fields(auto& v, WorldState& w) {
   v("pose_sd_m", w.pose_sd_m, Range{1e-4, 5.0});
   v("pose_sd_heading_deg", Degrees{w.pose_sd_heading_rad}, Range{0.01, 90.0});
   v("relocalise_distance_m", w.relocalise_distance_m, Range{0.05, 20.0});
@@ -332,8 +297,7 @@ void fields(V& v, WorldState& w) {
   v("possession_debounce_s", w.possession_debounce_s, Range{0.0, 2.0});
 }
 
-template <class V>
-void fields(V& v, KickDecision& k) {
+void fields(auto& v, KickDecision& k) {
   v("policy_by_half", k.policy_by_half);
   v("policy_by_robot", k.policy_by_robot);
   v("random", k.random);
@@ -346,8 +310,7 @@ void fields(V& v, KickDecision& k) {
   v("standby", k.standby);
 }
 
-template <class V>
-void fields(V& v, KickerDriver& k) {
+void fields(auto& v, KickerDriver& k) {
   v("min_interval_s", k.min_interval_s, Range{0.01, 10.0});
   v("min_charge_ratio", k.min_charge_ratio, Range{0.0, 1.0});
   v("max_order_age_s", k.max_order_age_s, Range{0.001, 1.0});
@@ -358,8 +321,7 @@ void fields(V& v, KickerDriver& k) {
   v("demand", k.demand);
 }
 
-template <class V>
-void fields(V& v, ShotObserver& s) {
+void fields(auto& v, ShotObserver& s) {
   v("history_s", s.history_s, Range{0.05, 10.0});
   v("time_out_s", s.time_out_s, Range{0.2, 30.0});
   v("ball_sd_m", s.ball_sd_m, Range{1e-4, 1.0});
@@ -368,22 +330,14 @@ void fields(V& v, ShotObserver& s) {
   v("rest_speed_mps", s.rest_speed_mps, Range{0.0, 5.0});
 }
 
-template <>
-struct Names<SimulatedDevices> {
-  static constexpr std::array<std::pair<std::string_view, SimulatedDevices>, 2> entries{
-      {{"bus", SimulatedDevices::kBus}, {"emulated", SimulatedDevices::kEmulated}}};
-};
-
-template <class V>
-void fields(V& v, SelfCalibration& s) {
+void fields(auto& v, SelfCalibration& s) {
   v("mode", s.mode);
   v("state_file", s.state_file);
   v("state_max_age_h", s.state_max_age_h, Range{0.0, 87600.0});
   v("change", s.change);
 }
 
-template <class V>
-void fields(V& v, Simulator& s) {
+void fields(auto& v, Simulator& s) {
   v("seed", s.seed, Range{0, 9e15});
   v("halves", s.halves, Range{1, 255});
   v("half_minutes", s.half_minutes, Range{0.0, 1000.0});
@@ -394,15 +348,13 @@ void fields(V& v, Simulator& s) {
   v("referee", s.referee);
 }
 
-template <class V>
-void fields(V& v, Recorder& r) {
+void fields(auto& v, Recorder& r) {
   v("log", r.log);
   v("queue_capacity", r.queue_capacity, Range{1, 10000000});
   v("group_commit_s", r.group_commit_s, Range{0.001, 10.0});
 }
 
-template <class V>
-void fields(V& v, ScanRecorder& s) {
+void fields(auto& v, ScanRecorder& s) {
   v("enabled", s.enabled);
   v("device", s.device);
   v("file", s.file);
@@ -412,14 +364,7 @@ void fields(V& v, ScanRecorder& s) {
   v("mount_mirrored", s.mount_mirrored);
 }
 
-template <>
-struct Names<TeamColour> {
-  static constexpr std::array<std::pair<std::string_view, TeamColour>, 2> entries{
-      {{"cyan", TeamColour::kCyan}, {"magenta", TeamColour::kMagenta}}};
-};
-
-template <class V>
-void fields(V& v, Refbox& r) {
+void fields(auto& v, Refbox& r) {
   v("host", r.host);
   v("port", r.port, Range{1, 65535});
   v("group", r.group);
@@ -432,8 +377,7 @@ void fields(V& v, Refbox& r) {
   v("acknowledgement_s", r.acknowledgement_s, Range{0.05, 0.5});
 }
 
-template <class V>
-void fields(V& v, TeamLink& t) {
+void fields(auto& v, TeamLink& t) {
   v("domain_id", t.domain_id, Range{0, 100});
   v("dds_file", t.dds_file);
   v("interface", t.interface);
@@ -441,8 +385,7 @@ void fields(V& v, TeamLink& t) {
   v("referee", t.referee);
 }
 
-template <class V>
-void fields(V& v, Settings& s) {
+void fields(auto& v, Settings& s) {
   v("run", s.run);
   v("domain", s.domain);
   v("hal", s.hal);

@@ -15,8 +15,7 @@ using kicking::Degrees, kicking::Range;
 
 inline constexpr Range kRatio{0.0, 1.0};
 
-template <class V>
-void fields(V& v, BallPhysics& b) {
+void fields(auto& v, BallPhysics& b) {
   v("mass_kg", b.mass_kg, Range{0.05, 2.0});
   v("radius_m", b.radius_m, Range{0.02, 0.25});
   v("air_density_kgpm3", b.air_density_kgpm3, Range{0.0, 2.0});
@@ -31,8 +30,7 @@ void fields(V& v, BallPhysics& b) {
   v("body_restitution_ratio", b.body_restitution_ratio, kRatio);
 }
 
-template <class V>
-void fields(V& v, Robot& r) {
+void fields(auto& v, Robot& r) {
   v("max_speed_mps", r.max_speed_mps, Range{0.1, 10.0});
   v("max_acceleration_mps2", r.max_acceleration_mps2, Range{0.1, 50.0});
   v("max_turn_rate_radps", r.max_turn_rate_radps, Range{0.1, 30.0});
@@ -43,8 +41,7 @@ void fields(V& v, Robot& r) {
   v("wheel_radius_m", r.wheel_radius_m, Range{0.005, 0.3});
 }
 
-template <class V>
-void fields(V& v, FlatKick& k) {
+void fields(auto& v, FlatKick& k) {
   v("enabled", k.enabled);
   v("powers", k.powers, Range{0.0, 1000.0});
   v("exit_speeds_mps", k.exit_speeds_mps, Range{0.1, 40.0});
@@ -56,8 +53,7 @@ void fields(V& v, FlatKick& k) {
   v("lever_s", k.lever_s, Range{0.0, 5.0});
 }
 
-template <class V>
-void fields(V& v, Kicker& k) {
+void fields(auto& v, Kicker& k) {
   v("powers", k.powers, Range{0.0, 1000.0});
   v("exit_speeds_mps", k.exit_speeds_mps, Range{0.1, 40.0});
   v("exit_elevations_rad", k.exit_elevations_rad, Range{0.0, 1.5});
@@ -77,8 +73,7 @@ void fields(V& v, Kicker& k) {
   v("recharge_per_s", k.recharge_per_s, Range{0.0, 100.0});
 }
 
-template <class V>
-void fields(V& v, Possession& p) {
+void fields(auto& v, Possession& p) {
   v("goal_distance_min_m", p.goal_distance_min_m, Range{0.5, 18.0});
   v("goal_distance_max_m", p.goal_distance_max_m, Range{0.5, 18.0});
   v("lateral_max_m", p.lateral_max_m, Range{0.0, 10.0});
@@ -92,8 +87,7 @@ void fields(V& v, Possession& p) {
   v("after_crossing_s", p.after_crossing_s, Range{0.0, 10.0});
 }
 
-template <class V>
-void fields(V& v, Opponent& o) {
+void fields(auto& v, Opponent& o) {
   v("count", o.count, Range{1.0, 5.0});
   v("distance_median_m", o.distance_median_m, Range{0.1, 100.0});
   v("distance_sigma_ln", o.distance_sigma_ln, Range{0.0, 3.0});
@@ -106,8 +100,7 @@ void fields(V& v, Opponent& o) {
 }
 
 /// Keys of whoever has a guard's body, in the same section.
-template <class V>
-void guard_fields(V& v, Guard& g) {
+void guard_fields(auto& v, Guard& g) {
   v("reaction_s", g.reaction_s, Range{0.0, 5.0});
   v("sight_sd_mps", g.sight_sd_mps, Range{0.0, 5.0});
   v("speed_mps", g.speed_mps, Range{0.0, 10.0});
@@ -117,8 +110,7 @@ void guard_fields(V& v, Guard& g) {
   v("overlap_m", g.overlap_m, Range{0.0, 0.2});
 }
 
-template <class V>
-void fields(V& v, Keeper& k) {
+void fields(auto& v, Keeper& k) {
   v("enabled", k.enabled);
   guard_fields(v, k.guard);
   v("side_extension_m", k.side_extension_m, Range{0.0, 1.0});
@@ -128,37 +120,32 @@ void fields(V& v, Keeper& k) {
   v("guess_m", k.guess_m, Range{0.0, 1.2});
 }
 
-template <class V>
-void fields(V& v, Defenders& d) {
+void fields(auto& v, Defenders& d) {
   v("count", d.count, Range{0.0, 4.0});
   v("line_distance_m", d.line_distance_m, Range{0.1, 9.0});
   v("spread_sd_m", d.spread_sd_m, Range{0.0, 10.0});
   guard_fields(v, d.guard);
 }
 
-template <class V>
-void fields(V& v, Referee& r) {
+void fields(auto& v, Referee& r) {
   v("stops_per_min", r.stops_per_min, Range{0.0, 60.0});
   v("half_minutes", r.half_minutes, Range{0.01, 1000.0});
   v("set_pieces", r.set_pieces);
 }
 
-template <class V>
-void fields(V& v, Team& t) {
+void fields(auto& v, Team& t) {
   v("robots", t.robots, Range{1.0, 5.0});
   v("speed_scale_ratios", t.speed_scale_ratios, Range{0.5, 1.5});
 }
 
-template <class V>
-void fields(V& v, Odometry& o) {
+void fields(auto& v, Odometry& o) {
   v("wheel_sd_radps", o.wheel_sd_radps, Range{0.0, 100.0});
   v("slip_sd_ratio", o.slip_sd_ratio, Range{0.0, 0.5});
   v("gyro_sd_radps", o.gyro_sd_radps, Range{0.0, 10.0});
   v("gyro_bias_sd_radps", o.gyro_bias_sd_radps, Range{0.0, 10.0});
 }
 
-template <class V>
-void fields(V& v, Vision& s) {
+void fields(auto& v, Vision& s) {
   v("latency_s", s.latency_s, Range{0.0, 0.5});
   v("position_white_sd_m", s.position_white_sd_m, Range{0.0, 5.0});
   v("position_slow_sd_m", s.position_slow_sd_m, Range{0.0, 5.0});
@@ -174,8 +161,7 @@ void fields(V& v, Vision& s) {
   v("dropout_ratio", s.dropout_ratio, kRatio);
 }
 
-template <class V>
-void fields(V& v, FlightCamera& c) {
+void fields(auto& v, FlightCamera& c) {
   v("latency_s", c.latency_s, Range{0.0, 0.5});
   v("period_s", c.period_s, Range{0.001, 1.0});
   v("position_sd_m", c.position_sd_m, Range{0.0, 5.0});
@@ -185,8 +171,7 @@ void fields(V& v, FlightCamera& c) {
   v("bias_z_m", c.bias_z_m, Range{-1.0, 1.0});
 }
 
-template <class V>
-void fields(V& v, Laser& l) {
+void fields(auto& v, Laser& l) {
   v("enabled", l.enabled);
   v("x_m", l.x_m, Range{-30.0, 30.0});
   v("y_m", l.y_m, Range{-30.0, 30.0});
@@ -200,8 +185,7 @@ void fields(V& v, Laser& l) {
   v("wall_ahead_m", l.wall_ahead_m, Range{0.5, 60.0});
 }
 
-template <class V>
-void fields(V& v, HandTable& h) {
+void fields(auto& v, HandTable& h) {
   v("distances_m", h.distances_m, Range{1.7, 20.0});
   v("target_height_m", h.target_height_m, Range{0.11, 2.0});
   v("kicks_per_distance", h.kicks_per_distance, Range{1.0, 100.0});
@@ -211,8 +195,7 @@ void fields(V& v, HandTable& h) {
   v("one_for_all", h.one_for_all);
 }
 
-template <class V>
-void fields(V& v, Scenario& s) {
+void fields(auto& v, Scenario& s) {
   v("cycle_s", s.cycle_s, Range{0.001, 0.5});
   v("substep_s", s.substep_s, Range{0.00001, 0.02});
   v("field", s.field);

@@ -10,8 +10,7 @@
 
 namespace trivela::config {
 
-template <class V>
-void fields(V& v, TeamFields& t) {
+void fields(auto& v, TeamFields& t) {
   v("name", t.name);
   v("number", t.number, Range{0, 255});
   v("network", t.network);
@@ -24,14 +23,12 @@ void fields(V& v, TeamFields& t) {
   v("budget_bps", t.budget_bps, Range{10'000, 100'000'000});
 }
 
-template <class V>
-void fields(V& v, TeamDomains& d) {
+void fields(auto& v, TeamDomains& d) {
   v("robot", d.robot, Range{0, 100});
   v("team", d.team, Range{0, 100});
 }
 
-template <class V>
-void fields(V& v, TeamRobot& r) {
+void fields(auto& v, TeamRobot& r) {
   v("number", r.number, Range{1, 255});
   v("address", r.address);
   v("robot", r.robot);
@@ -40,8 +37,7 @@ void fields(V& v, TeamRobot& r) {
   v("interface", r.interface);
 }
 
-template <class V>
-void fields(V& v, TeamBase& b) {
+void fields(auto& v, TeamBase& b) {
   v("address", b.address);
   v("interface", b.interface);
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 
 #include "config/robot.hpp"
 #include "config/team/team_bus.hpp"

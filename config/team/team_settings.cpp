@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -51,12 +50,7 @@ Settings settings_of(const Team& team, const TeamRobot& robot) {
   settings.domain.tag = tag_of(team, robot);
   settings.recorder.log = logs_of(team, "{robot}");
   settings.team_link.interface = team.interface_of(robot);
-  if (robot.policy) {
-    settings.kick_decision.policy_by_half = {*robot.policy};
-    settings.kick_decision.policy_by_robot.clear();
-    settings.kick_decision.random.clear();
-    settings.kick_decision.random_probabilities.clear();
-  }
+  if (robot.policy) settings.kick_decision.put_in_charge(*robot.policy);
   override_settings(settings, {});  // what follows from them together
   return settings;
 }

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "kicking/range.hpp"
 
 /// How a configuration struct lists its fields, once, for reading, writing and testing:
 ///
-///     template <class V> void fields(V& v, Odometry& o) {
+///     void fields(auto& v, Odometry& o) {
 ///       v("wheel_radius_m", o.wheel_radius_m, Range{0.01, 0.5});
 ///       v("mounting_deg", Degrees{o.mounting_rad});
 ///     }
@@ -20,24 +20,16 @@ namespace trivela::config {
 
 using kicking::Degrees, kicking::Range;
 
-/// The enums that a file may name, specialised beside the struct that uses one:
-/// `static constexpr std::array<std::pair<std::string_view, E>, N> entries`, or a function `entries()` that gives a
-/// list of such pairs.
+/// What a file calls the values of an enum: an overload of `names_of` beside the enum, or beside the struct that uses
+/// it, gives it.
+///
+///     inline EnumNames<DriveMode> names_of(DriveMode) { return {{"always", DriveMode::kAlways}, ...}; }
 template <class E>
-struct Names;
-
-/// The names and values of E.
-template <class E>
-auto names_of() {
-  if constexpr (requires { Names<E>::entries(); })
-    return Names<E>::entries();
-  else
-    return Names<E>::entries;
-}
+using EnumNames = std::vector<std::pair<std::string_view, E>>;
 
 template <class E>
-concept NamedEnum = std::is_enum_v<E> && requires {
-  names_of<E>().size();
+concept NamedEnum = std::is_enum_v<E> && requires(E e) {
+  names_of(e).size();
 };
 
 /// Stands for any visitor when asking whether a type lists its fields.

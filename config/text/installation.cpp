@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 #include <sstream>
-#include <string>
 
 namespace trivela::config {
 namespace {

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <numbers>
 #include <sstream>
 

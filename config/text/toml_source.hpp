@@ -156,12 +156,12 @@ class TableReader {
   template <NamedEnum E>
   E enum_of(std::string_view key, const toml::node& node) const {
     if (const auto text = node.value<std::string>()) {
-      for (const auto& [name, value] : names_of<E>()) {
+      for (const auto& [name, value] : names_of(E{})) {
         if (name == *text) return value;
       }
     }
     std::vector<std::string_view> known;
-    for (const auto& entry : names_of<E>()) known.push_back(entry.first);
+    for (const auto& entry : names_of(E{})) known.push_back(entry.first);
     fail(key, node, "expected one of: " + joined(known));
   }
 

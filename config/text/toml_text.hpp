@@ -100,7 +100,7 @@ class TableText {
   }
   template <NamedEnum E>
   static std::string name(E value) {
-    for (const auto& [label, candidate] : names_of<E>()) {
+    for (const auto& [label, candidate] : names_of(E{})) {
       if (candidate == value) return quoted(label);
     }
     return quoted("?");
