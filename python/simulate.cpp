@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <mutex>
 
 #include "config/arms.hpp"
 #include "config/scenario/scenario.hpp"
@@ -76,14 +75,14 @@ experiment::ExperimentPlan plan_of(const Asked& asked, Callback& callback) {
   plan.seed = asked.seed;
   plan.matches = asked.matches;
   plan.possessions = asked.possessions;
+  plan.jobs = asked.jobs;
   plan.options = {.shadows = asked.shadows, .every_cycle = asked.every_cycle};
   experiment::check_calibrations(base, asked.calibrations, asked.matches);
   const auto calibrated = [&](std::size_t done, std::size_t all) {
     callback.progress(static_cast<double>(done), static_cast<double>(all), "calibrations");
     if (callback.raised()) throw std::runtime_error("stopped");
   };
-  plan.calibrations =
-      experiment::calibrated_teams(plan.scenario, {asked.calibrations, asked.seed, asked.jobs}, calibrated);
+  plan.calibrations = experiment::calibrated_teams(plan.scenario, asked.calibrations, plan, calibrated);
   experiment::check_playable(plan);
   return plan;
 }
@@ -140,8 +139,8 @@ bool plays_python(const experiment::ExperimentPlan& plan) {
 }
 
 Columns play(const Asked& asked, Callback& callback) {
-  const experiment::ExperimentPlan plan = plan_of(asked, callback);
-  const unsigned jobs = plays_python(plan) ? 1 : asked.jobs;
+  experiment::ExperimentPlan plan = plan_of(asked, callback);
+  if (plays_python(plan)) plan.jobs = 1;
   Columns columns;
   const auto take = [&](std::uint32_t match_id, const std::vector<experiment::ArmMatch>& arms) {
     add_match(columns, plan, match_id, arms);
@@ -154,13 +153,13 @@ Columns play(const Asked& asked, Callback& callback) {
   const auto play_unrecorded = [&](std::int64_t matches) {
     experiment::ExperimentPlan part = plan;
     part.matches = static_cast<std::uint32_t>(matches);
-    experiment::play_matches(part, 0, jobs, false, watch, take);
+    experiment::play_matches(part, 0, false, watch, take);
   };
   if (asked.out.empty()) {
     play_unrecorded(plan.matches);
   } else {
     watch.found = play_unrecorded;  // in the log already: played again for their rows
-    experiment::run_experiment(plan, jobs, asked.out, watch);
+    experiment::run_experiment(plan, asked.out, watch);
   }
   return columns;
 }

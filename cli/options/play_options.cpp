@@ -6,7 +6,6 @@
 #include <charconv>
 
 #include "cli/options/number_checks.hpp"
-#include "cli/verbs.hpp"
 #include "config/scenario/scenario.hpp"
 
 namespace trivela::cli {
@@ -47,9 +46,14 @@ std::string World::named(const std::string& base) const {
   return name;
 }
 
-void add_world_options(CLI::App& verb, World& world) {
+void add_world_options(CLI::App& verb, World& world, std::uint32_t* calibrations) {
   add_default(verb, "--scenario", world.file, "The world", readable_file());
   verb.add_option("--world", world.changes, "One value of it on top, e.g. --world kicker.delay_s=0.03");
+  if (calibrations == nullptr) return;
+  add_default(verb, "--calibrations", *calibrations,
+              "Simulated calibrations that the robots come from, match m with calibration m mod K; 0: robot files",
+              CLI::Range(0u, 1000u))
+      ->type_name("K");
 }
 
 namespace {

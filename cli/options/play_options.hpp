@@ -29,8 +29,8 @@ struct World {
   std::string named(const std::string& base) const;
 };
 
-/// --scenario, --world.
-void add_world_options(CLI::App& verb, World& world);
+/// --scenario, --world, and --calibrations, whose number may be nullptr: then without it.
+void add_world_options(CLI::App& verb, World& world, std::uint32_t* calibrations = nullptr);
 
 /// --shard K/N; `footnote` ends its help.
 void add_shard_option(CLI::App& verb, std::optional<log::Shard>& shard, const std::string& footnote);

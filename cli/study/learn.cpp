@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/launch/progress_bar.hpp"
@@ -12,6 +11,7 @@
 #include "config/learned_model.hpp"
 #include "evaluator/learning/learned_fit.hpp"
 #include "evaluator/render/json_values.hpp"
+#include "evaluator/render/table.hpp"
 #include "evaluator/render/text_table.hpp"
 
 namespace trivela::cli {
@@ -60,63 +60,60 @@ std::string verdict(const HeldOutLoss& loss) {
                           : "not better than predictive's own probability: the interval contains 0";
 }
 
+evaluator::Table deciles_of(const HeldOutLoss& loss) {
+  evaluator::Table table{{{"", "tenth"},
+                          {"kicks", "kicks"},
+                          {"predictive", "predictive", "{:.1f} %", 100.0},
+                          {"learned", "learned", "{:.1f} %", 100.0},
+                          {"on_target", "", ""},
+                          {"", "observed", "{:.1f} %", 100.0},
+                          {"observed_ci", "", ""},
+                          {"", "95 %"}}};
+  for (const auto& d : loss.deciles)
+    table.rows.push_back({table.rows.size() + 1, d.kicks, d.predictive, d.learned, d.observed.inside,
+                          *evaluator::stats::efficiency(d.observed), json_of(d.observed_ci),
+                          evaluator::percent(d.observed_ci)});
+  return table;
+}
+
+evaluator::Table features_of(const LearnedModel& model) {
+  evaluator::Table table{
+      {{"name", "feature"}, {"weight", "weight", "{:+.4f}"}, {"mean", "mean", "{:.4g}"}, {"scale", "scale", "{:.4g}"}}};
+  for (std::size_t i = 0; i < LearnedModel::kFeatures; ++i)
+    table.rows.push_back({LearnedModel::kFeatureNames[i], model.weights[i], model.means[i], model.scales[i]});
+  return table;
+}
+
 std::string text_of(const LearnedFit& fit) {
   const HeldOutLoss& loss = fit.held_out;
-  std::string text = fmt::format(
+  const std::string text = fmt::format(
       "Trained on {} kicks of {} matches, ridge {:g}; held out {} kicks of {} other matches.\n\n"
       "log loss on held-out kicks: learned {:.4f}, predictive {:.4f}\n"
       "difference {:+.4f}, 95 % interval {:+.4f} to {:+.4f} (by match): {}\n\n",
       fit.kicks, fit.matches, fit.ridge, loss.kicks, loss.matches, loss.learned, loss.predictive, loss.difference,
       loss.ci.lo, loss.ci.hi, verdict(loss));
-  std::vector<std::vector<std::string>> rows{{"tenth", "kicks", "predictive", "learned", "observed", "95 %"}};
-  for (std::size_t i = 0; i < loss.deciles.size(); ++i) {
-    const auto& d = loss.deciles[i];
-    rows.push_back(
-        {std::to_string(i + 1), std::to_string(d.kicks), evaluator::percent(d.predictive),
-         evaluator::percent(d.learned), evaluator::percent(*evaluator::stats::efficiency(d.observed)),
-         fmt::format("{} to {}", evaluator::percent(d.observed_ci.lo), evaluator::percent(d.observed_ci.hi))});
-  }
-  text += evaluator::text_table(rows) + "\n";
-  rows = {{"feature", "weight", "mean", "scale"}};
-  for (std::size_t i = 0; i < LearnedModel::kFeatures; ++i) {
-    rows.push_back({LearnedModel::kFeatureNames[i], fmt::format("{:+.4f}", fit.model.weights[i]),
-                    fmt::format("{:.4g}", fit.model.means[i]), fmt::format("{:.4g}", fit.model.scales[i])});
-  }
-  return text + evaluator::text_table(rows) +
+  return text + evaluator::text_table(texts_of(deciles_of(loss))) + "\n" +
+         evaluator::text_table(texts_of(features_of(fit.model))) +
          fmt::format("logit p = logit P {:+.4f} + sum of weight (x - mean) / scale\n", fit.model.intercept);
 }
 
 Json to_json(const LearnedFit& fit, const std::string& written) {
   const HeldOutLoss& loss = fit.held_out;
-  Json json{{"training", {{"kicks", fit.kicks}, {"matches", fit.matches}, {"ridge", fit.ridge}}},
-            {"held_out",
-             {{"kicks", loss.kicks},
-              {"matches", loss.matches},
-              {"log_loss_learned", loss.learned},
-              {"log_loss_predictive", loss.predictive},
-              {"difference", loss.difference},
-              {"difference_ci", json_of(loss.ci)},
-              {"better", loss.better()}}},
-            {"deciles", Json::array()},
-            {"model", {{"intercept", fit.model.intercept}, {"features", Json::array()}}},
-            {"file", written.empty() ? Json() : Json(written)}};
-  for (const auto& d : loss.deciles) {
-    json["deciles"].push_back({{"kicks", d.kicks},
-                               {"predictive", d.predictive},
-                               {"learned", d.learned},
-                               {"on_target", d.observed.inside},
-                               {"observed_ci", json_of(d.observed_ci)}});
-  }
-  for (std::size_t i = 0; i < LearnedModel::kFeatures; ++i) {
-    json["model"]["features"].push_back({{"name", LearnedModel::kFeatureNames[i]},
-                                         {"weight", fit.model.weights[i]},
-                                         {"mean", fit.model.means[i]},
-                                         {"scale", fit.model.scales[i]}});
-  }
-  return json;
+  return {{"training", {{"kicks", fit.kicks}, {"matches", fit.matches}, {"ridge", fit.ridge}}},
+          {"held_out",
+           {{"kicks", loss.kicks},
+            {"matches", loss.matches},
+            {"log_loss_learned", loss.learned},
+            {"log_loss_predictive", loss.predictive},
+            {"difference", loss.difference},
+            {"difference_ci", json_of(loss.ci)},
+            {"better", loss.better()}}},
+          {"deciles", rows_json(deciles_of(loss))},
+          {"model", {{"intercept", fit.model.intercept}, {"features", rows_json(features_of(fit.model))}}},
+          {"file", written.empty() ? Json() : Json(written)}};
 }
 
-ExitCode learn(const LearnFlags& flags) {
+int learn(const LearnFlags& flags) {
   require_writable("--out", flags.out);
   const auto source = flags.shadows ? evaluator::PredictionSource::kAndShadows : evaluator::PredictionSource::kInCharge;
   ProgressBar bar;
@@ -153,19 +150,17 @@ ExitCode learn(const LearnFlags& flags) {
 }  // namespace
 
 void add_learn(CLI::App& study, int& exit_code) {
-  auto* const verb = study.add_subcommand("learn", "Train the learned policy's correction on match logs");
-  const auto flags = std::make_shared<LearnFlags>();
+  const auto [verb, flags] =
+      add_verb(study, exit_code, "learn", "Train the learned policy's correction on match logs", learn);
   verb->add_option("log", flags->logs, "Match logs with kicks of the predictive policy")
       ->required()
       ->check(readable_file());
-  verb->add_option("--out", flags->out, "The model's file")->capture_default_str()->type_name("FILE");
-  verb->add_option("--held-out", flags->options.held_out_share, "Share of the matches that the fit does not see")
-      ->check(CLI::Range(0.1, 0.9))
-      ->capture_default_str();
-  verb->add_option("--folds", flags->options.folds, "Of the cross-validation by match that chooses the ridge")
-      ->check(CLI::Range(2, 100))
-      ->capture_default_str();
-  verb->add_option("--seed", flags->options.seed, "Which matches are held out")->check(seeds())->capture_default_str();
+  add_default(*verb, "--out", flags->out, "The model's file")->type_name("FILE");
+  add_default(*verb, "--held-out", flags->options.held_out_share, "Share of the matches that the fit does not see",
+              CLI::Range(0.1, 0.9));
+  add_default(*verb, "--folds", flags->options.folds, "Of the cross-validation by match that chooses the ridge",
+              CLI::Range(2, 100));
+  add_default(*verb, "--seed", flags->options.seed, "Which matches are held out", seeds());
   verb->add_flag("--shadows", flags->shadows,
                  "Also kicks of other policies, with the probability that predictive gave its own kick of that cycle");
   verb->add_flag("--anyway", flags->anyway, "Write the model even where it is not better");
@@ -173,7 +168,6 @@ void add_learn(CLI::App& study, int& exit_code) {
   verb->footer(
       "Observed outcomes alone, never the simulator's truth. Exit code 3: on held-out matches the model is not better\n"
       "than predictive's own probability (95 % interval of the log loss's difference), and no file is written.");
-  verb->callback([flags, &exit_code] { exit_code = learn(*flags); });
 }
 
 }  // namespace trivela::cli

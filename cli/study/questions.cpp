@@ -58,26 +58,19 @@ std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::string>&
   return names.empty() ? all : some;
 }
 
-Study arms(const QuestionFlags& flags, const Scenario& scenario) {
-  return experiment::arms_study(scenario, arms_of(flags.arms, flags.base));
-}
-
 Study factorial(const QuestionFlags& flags, const Scenario& scenario) {
   experiment::ArmBase base = flags.base;
   if (base.robots.empty()) base.robots = {"calibrated_1"};
   for (std::string& robot : base.robots) robot = find_robot(robot).string();
   const experiment::Arm like = arms_of("moving", base).front();
   if (flags.no_sweep) return experiment::factorial_study(scenario, like, flags.law, {}, {});
-  return experiment::factorial_study(scenario, like, flags.law,
-                                     {flags.opponent_medians_m.begin(), flags.opponent_medians_m.end()},
-                                     {flags.eye_biases_m.begin(), flags.eye_biases_m.end()});
+  return experiment::factorial_study(scenario, like, flags.law, flags.opponent_medians_m, flags.eye_biases_m);
 }
 
 Study frontier(const QuestionFlags& flags, const Scenario& scenario) {
   std::vector<experiment::Arm> others = arms_of(flags.beside, flags.base);
   others.push_back(arms_of("oracle", flags.base).front());
-  return experiment::frontier_study(scenario, arms_of(flags.policy, flags.base).front(),
-                                    {flags.thresholds.begin(), flags.thresholds.end()}, others);
+  return experiment::frontier_study(scenario, arms_of(flags.policy, flags.base).front(), flags.thresholds, others);
 }
 
 Study robustness(const QuestionFlags& flags, const Scenario& scenario) {
@@ -114,7 +107,9 @@ constexpr Question kQuestions[]{
      [](CLI::App& verb, QuestionFlags& flags) {
        add_default(verb, "--arms", flags.arms, "Policies, e.g. stopped,moving,predictive, or a file of arms (.toml)");
      },
-     arms},
+     [](const QuestionFlags& flags, const Scenario& scenario) {
+       return experiment::arms_study(scenario, arms_of(flags.arms, flags.base));
+     }},
     {"factorial", "What calibration buys and what motion buys",
      "The old table is drawn again for each match from the scenario's [hand_table]. Without --robot: calibrated_1.",
      [](CLI::App& verb, QuestionFlags& flags) {
@@ -126,7 +121,7 @@ constexpr Question kQuestions[]{
                    CLI::Range(-0.5, 1.0))
            ->delimiter(',');
        add_default(verb, "--law", flags.law, "Law of both sides of the sweeps",
-                   CLI::IsMember(experiment::factorial_laws()));
+                   CLI::IsMember(experiment::kFactorialLaws));
        verb.add_flag("--no-sweep", flags.no_sweep, "The factorial alone");
      },
      factorial},
@@ -177,7 +172,7 @@ int ask(const Question& question, QuestionFlags flags) {
   std::vector<Scenario> played;
   for (const experiment::StudyWorld& world : study.worlds) played.push_back(world.scenario);
   flags.world.require_effect(played);
-  flags.draw_calibrations(scenario);
+  draw_calibrations(scenario, flags.base, flags.calibrations, flags.plan);
   const std::vector<experiment::Arm>& arms = study.worlds.front().arms;
   if (flags.calibrations == 0)
     for (const std::string& remark : experiment::shared_robots(scenario, arms)) warn(remark);
@@ -187,7 +182,7 @@ int ask(const Question& question, QuestionFlags flags) {
     auto rows = run.play(study.worlds, flags.plan).rows;
     run.finish();
     if (const auto& shard = flags.plan.shard) {
-      const auto range = log::range_of(shard, flags.plan.matches);
+      const auto range = flags.plan.range();
       fmt::print(
           "shard {}: matches {} to {} of {} are in {}. For the report give this command --with and the files of all "
           "shards, in place of --shard and --results\n",

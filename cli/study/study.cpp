@@ -4,16 +4,9 @@
 
 #include <filesystem>
 
-#include "cli/launch/progress_bar.hpp"
 #include "cli/options/number_checks.hpp"
-#include "cli/options/play_options.hpp"
-#include "cli/verbs.hpp"
 
 namespace trivela::cli {
-
-void StudyFlags::draw_calibrations(const sim::Scenario& scenario) {
-  plan.calibrations = cli::draw_calibrations(scenario, base, {calibrations, plan.seed, plan.jobs}, plan.matches);
-}
 
 experiment::StudyPlayed StudyFlags::played(const sim::Scenario& scenario) const {
   return {.scenario = world.named(std::filesystem::path{world.file}.filename().string()),
@@ -25,16 +18,14 @@ experiment::StudyPlayed StudyFlags::played(const sim::Scenario& scenario) const 
           .keeper = scenario.keeper.enabled};
 }
 
-std::vector<experiment::Team> draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base,
-                                                const experiment::RepeatedCalibration& plan, std::uint32_t matches) {
-  experiment::ArmBase flags = base;
-  flags.robots_called = "--robot";
-  flags.before_numbers = "--";
-  experiment::check_calibrations(flags, plan.calibrations, matches);
+void draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base, std::uint32_t calibrations,
+                       experiment::PlayPlan& plan) {
+  experiment::check_calibrations(base, calibrations, plan.matches);
   ProgressBar bar;
-  return experiment::calibrated_teams(scenario, plan, [&](std::size_t done, std::size_t all) {
-    bar.show(static_cast<double>(done), static_cast<double>(all), "calibrations", "calibration");
-  });
+  plan.calibrations =
+      experiment::calibrated_teams(scenario, calibrations, plan, [&](std::size_t done, std::size_t all) {
+        bar.show(static_cast<double>(done), static_cast<double>(all), "calibrations", "calibration");
+      });
 }
 
 void add_play_options(CLI::App& verb, StudyFlags& flags) {
@@ -43,8 +34,7 @@ void add_play_options(CLI::App& verb, StudyFlags& flags) {
   add_default(verb, "--possessions", plan.possessions, "Opportunities of a match", CLI::Range(1, 10000));
   add_default(verb, "--seed", plan.seed, "Same seed, same opportunities", seeds());
   verb.add_option("--jobs", plan.jobs, "Threads; default one a core")->check(CLI::Range(1, 256));
-  add_world_options(verb, flags.world);
-  add_calibrations_option(verb, flags.calibrations);
+  add_world_options(verb, flags.world, &flags.calibrations);
   verb.add_option("--results", flags.results,
                   "File that keeps what is played, match by match; one of the same command is continued")
       ->type_name("FILE");
@@ -55,16 +45,8 @@ void add_play_options(CLI::App& verb, StudyFlags& flags) {
   add_arm_options(verb, flags.base);
 }
 
-void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations) {
-  add_default(verb, "--calibrations", calibrations,
-              "Simulated calibrations that the robots come from, match m with calibration m mod K; 0: robot files",
-              CLI::Range(0u, 1000u))
-      ->type_name("K");
-}
-
 void add_arm_options(CLI::App& verb, experiment::ArmBase& base) {
-  base.arms_called = "--arms";
-  base.set_called = "--set";
+  base.dashes = "--";
   verb.add_option("--robot", base.robots, "Robot files, one for each of the team; default: the calibrated ones")
       ->delimiter(',');
   add_default(verb, "--config", base.config, "Settings of the nodes");

@@ -21,7 +21,8 @@ namespace trivela::cli {
 
 /// The flags that all studies have.
 struct StudyFlags {
-  experiment::PlayPlan plan{.jobs = std::max(1u, std::thread::hardware_concurrency())};
+  experiment::PlayPlan plan{
+      .matches = 400, .possessions = 45, .jobs = std::max(1u, std::thread::hardware_concurrency())};
   World world;
   experiment::ArmBase base{config::shipped("default.toml").string(), {}, {}};
   std::uint32_t calibrations = 0;  ///< 0: the robot files as they are
@@ -31,9 +32,6 @@ struct StudyFlags {
   std::vector<std::string> with;  ///< results of other runs of this study, or of its shards
   bool json = false;
 
-  /// Plays the calibrations of the plan's seed into the plan, before its matches.
-  void draw_calibrations(const sim::Scenario& scenario);
-
   experiment::StudyPlayed played(const sim::Scenario& scenario) const;
 
   /// Throws before anything is played: where an output cannot be written, and where a shard has no results file or is
@@ -41,16 +39,13 @@ struct StudyFlags {
   void require_writable() const;
 };
 
-/// The teams of the calibrations, played with a progress bar on a terminal, for an experiment of so many
-/// matches. Throws config::BadArgument where `base` names robot files, too, and where there are more calibrations than
-/// matches.
-std::vector<experiment::Team> draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base,
-                                                const experiment::RepeatedCalibration& plan, std::uint32_t matches);
+/// Plays so many calibrations of the plan's seed into the plan, with a progress bar on a terminal. Throws
+/// config::BadArgument where `base` names robot files, too, and where there are more calibrations than matches.
+void draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base, std::uint32_t calibrations,
+                       experiment::PlayPlan& plan);
 
 /// The flags of the plan, the world, the calibrations, the results and the arms.
 void add_play_options(CLI::App& verb, StudyFlags& flags);
-
-void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations);
 
 /// --robot, --config, --set.
 void add_arm_options(CLI::App& verb, experiment::ArmBase& base);

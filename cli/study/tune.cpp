@@ -2,12 +2,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 
 #include "cli/options/number_checks.hpp"
 #include "cli/study/study.hpp"
-#include "config/text/installation.hpp"
 #include "experiment/study/tune/tune.hpp"
 
 namespace trivela::cli {
@@ -120,8 +118,8 @@ int study_tune(const TuneFlags& asked) {
                             .space = space_of(flags, *arm.policy),
                             .settings = arm.settings};
   tuning.settings.run.scenario = flags.world.file;  // whose best settings they are
-  flags.draw_calibrations(scenario);
-  other.draw_calibrations(scenario);
+  for (TuneFlags* const played : {&flags, &other})
+    draw_calibrations(scenario, played->base, played->calibrations, played->plan);
   const experiment::StudyWorld world{"tune", scenario, {arm}};
   std::string arguments = fmt::format("rounds = {}\nheld_out_seed = {}\n", flags.rounds, other.plan.seed) +
                           experiment::arguments_of({.name = "tune", .whom = "", .worlds = {world}});

@@ -19,15 +19,15 @@
 namespace trivela::experiment {
 namespace {
 using kicking::degrees;
-using log::RecordedOutcome;
 
-AimErrors errors(std::span<const log::Kick> kicks, const config::Settings& settings, auto&& crossing_of) {
+AimErrors errors(std::span<const log::Kick> kicks, const config::Settings& settings,
+                 std::optional<log::RecordedOutcome> log::Kick::*crossing) {
   AimErrors result;
   std::vector<double> height_m, sideways_m;
   for (const log::Kick& kick : kicks) {
     if (!kick.accepted.value_or(false)) continue;
     ++result.kicks;
-    const std::optional<RecordedOutcome>& seen = crossing_of(kick);
+    const auto& seen = kick.*crossing;
     const bool crossed = seen && seen->x_cross_m && seen->z_cross_m;
     if (!crossed) ++result.without_crossing;
     height_m.push_back(crossed ? std::abs(*seen->z_cross_m - settings.policy.target_height_m) : HUGE_VAL);
@@ -97,13 +97,11 @@ double world_beta_slope(const config::Robot& robot, const sim::Scenario& world, 
 std::string exit_speed_key(double power) { return fmt::format("exit_speed_{:g}_mps", power); }
 
 AimErrors observed_errors(std::span<const log::Kick> kicks, const config::Settings& settings) {
-  return errors(
-      kicks, settings, [](const log::Kick& kick) -> const auto& { return kick.observed; });
+  return errors(kicks, settings, &log::Kick::observed);
 }
 
 AimErrors true_errors(std::span<const log::Kick> kicks, const config::Settings& settings) {
-  return errors(
-      kicks, settings, [](const log::Kick& kick) -> const auto& { return kick.truth; });
+  return errors(kicks, settings, &log::Kick::truth);
 }
 
 std::vector<WorldFigure> against_world(const config::Robot& robot, const sim::Scenario& world,
@@ -119,26 +117,28 @@ std::vector<WorldFigure> against_world(const config::Robot& robot, const sim::Sc
     figures.push_back({exit_speed_key(point.power), point.speed_mps, effective.speed_mps});
   }
   const auto points = static_cast<double>(model.table.set_points().size());
-  figures.push_back({"exit_angle_deg", degrees(model.exit_angle_rad), degrees(angle_sum_rad / points)});
-  figures.push_back({"delay_s", model.delay_s, world.kicker.delay_s});
-  figures.push_back({"alpha_slope_deg_per_mps", degrees(model.alpha_slope_rad_per_mps),
-                     degrees(world_alpha_slope(robot, world, settings))});
-  figures.push_back({"beta_slope_s", model.beta_slope_s, world_beta_slope(robot, world, settings)});
   const auto effective = [&](double transfer, double distance_m) {
     return transfer * world_effective_ratio(robot, world, settings, distance_m);
   };
   const kicking::TestDriveConfig& drive = settings.policy.test_drive;
-  figures.push_back({"transfer_forward_ratio", model.transfer_exact.forward,
-                     effective(world.kicker.transfer_forward_ratio, drive.straight_distance_m)});
-  figures.push_back({"transfer_backward_ratio", model.transfer_exact.backward,
-                     effective(world.kicker.transfer_backward_ratio, drive.straight_distance_m)});
-  figures.push_back({"transfer_lateral_ratio", model.transfer_exact.lateral,
-                     effective(world.kicker.transfer_lateral_ratio, drive.distance_m)});
-  // What the robot must expect of its kicks, beside what the world draws.
-  const kicking::KickSpreads& spreads = model.spreads;
-  figures.push_back({"speed_sd_ratio", spreads.speed_sd_ratio, world.kicker.speed_sd_ratio});
-  figures.push_back({"direction_sd_deg", degrees(spreads.direction_sd_rad), degrees(world.kicker.direction_sd_rad)});
-  figures.push_back({"delay_sd_s", spreads.delay_sd_s, world.kicker.delay_sd_s});
+  const kicking::Transfer& transfer = model.transfer_exact;
+  const kicking::KickSpreads& spreads = model.spreads;  // what the robot must expect of its kicks
+  const sim::Kicker& kicker = world.kicker;
+  figures.insert(
+      figures.end(),
+      {{"exit_angle_deg", degrees(model.exit_angle_rad), degrees(angle_sum_rad / points)},
+       {"delay_s", model.delay_s, kicker.delay_s},
+       {"alpha_slope_deg_per_mps", degrees(model.alpha_slope_rad_per_mps),
+        degrees(world_alpha_slope(robot, world, settings))},
+       {"beta_slope_s", model.beta_slope_s, world_beta_slope(robot, world, settings)},
+       {"transfer_forward_ratio", transfer.forward,
+        effective(kicker.transfer_forward_ratio, drive.straight_distance_m)},
+       {"transfer_backward_ratio", transfer.backward,
+        effective(kicker.transfer_backward_ratio, drive.straight_distance_m)},
+       {"transfer_lateral_ratio", transfer.lateral, effective(kicker.transfer_lateral_ratio, drive.distance_m)},
+       {"speed_sd_ratio", spreads.speed_sd_ratio, kicker.speed_sd_ratio},
+       {"direction_sd_deg", degrees(spreads.direction_sd_rad), degrees(kicker.direction_sd_rad)},
+       {"delay_sd_s", spreads.delay_sd_s, kicker.delay_sd_s}});
   return figures;
 }
 

@@ -20,8 +20,7 @@
 namespace trivela::experiment {
 namespace {
 
-template <class Message>
-log::RecordedOutcome crossing_of(const Message& message) {
+log::RecordedOutcome crossing_of(const auto& message) {
   return {std::string{bus::label(message.outcome)}, kicking::OptionalDouble{message.x_cross_m},
           kicking::OptionalDouble{message.z_cross_m}};
 }

@@ -18,10 +18,7 @@ config::Settings settings_of(const Arm& arm, const PlayOptions& options) {
   config::KickDecision& decision = settings.kick_decision;
   decision.shadows = options.shadows;
   if (arm.random.empty() && !arm.policy) return settings;
-  decision.policy_by_half = {arm.policy.value_or(kicking::PolicyName::kMoving)};
-  decision.policy_by_robot.clear();
-  decision.random.clear();
-  decision.random_probabilities.clear();
+  decision.put_in_charge(arm.policy.value_or(kicking::PolicyName::kMoving));
   for (const robot::PolicyChance& chance : arm.random) {
     decision.random.push_back(chance.policy);
     decision.random_probabilities.push_back(chance.probability);

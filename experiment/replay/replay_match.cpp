@@ -3,44 +3,87 @@
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <set>
 #include <stdexcept>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "experiment/replay/recorded_cycles.hpp"
 #include "hal/wheels.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/optional_double.hpp"
-#include "log/write/writer.hpp"
 #include "robot/odometry/wheel_odometry.hpp"
 #include "robot/recording/message_row.hpp"
 
 namespace trivela::experiment {
 namespace {
 
+template <class T>
+log::TableId table(log::Writer& log) {
+  return log.table(robot::table_of<T>(), robot::columns_of<T>());
+}
+
 /// One robot's rows of a replay, as the recorder would write them. Waits for a disk that does not keep up.
 class ReplayRows {
  public:
   /// `queue_capacity`: of the log.
-  ReplayRows(log::Writer& log, std::size_t queue_capacity);
+  ReplayRows(log::Writer& log, std::size_t queue_capacity)
+      : log_(log),
+        most_waiting_(queue_capacity / 2),
+        referee_(table<msg::Referee>(log)),
+        odometry_(table<msg::Odometry>(log)),
+        worlds_(table<msg::WorldState>(log)),
+        drives_(table<msg::DriveCommand>(log)),
+        decisions_(table<msg::KickDecision>(log)),
+        shadows_(log.table(robot::table_of<msg::ShadowDecision>(), robot::shadow_columns())),
+        orders_(table<msg::KickOrder>(log)),
+        assignments_(log.table("assignments", robot::assignment_columns())) {}
 
   /// The same row again.
   void write(const msg::Referee& word) { push(referee_, robot::row_of(word)); }
   void write(const msg::Odometry& odometry) { push(odometry_, robot::row_of(odometry)); }
 
   /// World state and drive of a cycle, its decision where the robot has the ball, and its order.
-  void write_cycle(msg::WorldState world, const LogicDecision& decided);
+  void write_cycle(msg::WorldState world, const LogicDecision& decided) {
+    world.seq = ++cycles_;
+    push(worlds_, robot::row_of(world));
+    push(drives_, robot::row_of(msg::DriveCommand{.robot_id = world.robot_id,
+                                                  .seq = cycles_,
+                                                  .t_ns = world.t_ns,
+                                                  .vx_mps = decided.drive.vx_mps,
+                                                  .vy_mps = decided.drive.vy_mps,
+                                                  .omega_radps = decided.drive.omega_radps,
+                                                  .lever_kind = decided.record.lever_kind}));
+    if (world.possession) write_decision(decided.record);
+    if (!decided.order) return;
+    ++orders_made_;
+    push(orders_, robot::row_of(*decided.order));
+  }
 
   std::int64_t decisions() const { return decisions_made_; }
   std::int64_t orders() const { return orders_made_; }
 
  private:
-  void push(log::TableId table, std::vector<log::Value> row);
-  void write_decision(const msg::KickDecision& decision);
+  void push(log::TableId table, std::vector<log::Value> row) {
+    if (log_.waiting() > most_waiting_) log_.flush();
+    log_.push(table, std::move(row));
+  }
+
+  void write_decision(const msg::KickDecision& decision) {
+    ++decisions_made_;
+    push(decisions_, robot::row_of(decision));
+    if (decision.reason != msg::REASON_NOT_PLAYING && assigned_.emplace(decision.half, decision.possession_id).second) {
+      robot::RowCells row;
+      robot::write_assignment(row, decision.robot_id, decision.half, decision.possession_id, msg::policy_name(decision),
+                              decision.assignment_probability, decision.t_ns);
+      push(assignments_, std::move(row.cells));
+    }
+    for (std::int64_t i = 0; i < decision.shadow_count; ++i) {
+      robot::RowCells row;
+      robot::write_shadow(row, decision.robot_id, static_cast<std::int64_t>(decision.seq), i, decision.shadows[i]);
+      push(shadows_, std::move(row.cells));
+    }
+  }
 
   log::Writer& log_;
   std::size_t most_waiting_;
@@ -49,60 +92,6 @@ class ReplayRows {
   std::int64_t decisions_made_ = 0, orders_made_ = 0;
   std::set<std::tuple<std::uint8_t, std::uint32_t>> assigned_;  // half and possession
 };
-
-template <class T>
-log::TableId table(log::Writer& log) {
-  return log.table(robot::table_of<T>(), robot::columns_of<T>());
-}
-
-ReplayRows::ReplayRows(log::Writer& log, std::size_t queue_capacity)
-    : log_(log),
-      most_waiting_(queue_capacity / 2),
-      referee_(table<msg::Referee>(log)),
-      odometry_(table<msg::Odometry>(log)),
-      worlds_(table<msg::WorldState>(log)),
-      drives_(table<msg::DriveCommand>(log)),
-      decisions_(table<msg::KickDecision>(log)),
-      shadows_(log.table(robot::table_of<msg::ShadowDecision>(), robot::shadow_columns())),
-      orders_(table<msg::KickOrder>(log)),
-      assignments_(log.table("assignments", robot::assignment_columns())) {}
-
-void ReplayRows::push(log::TableId table, std::vector<log::Value> row) {
-  if (log_.waiting() > most_waiting_) log_.flush();
-  log_.push(table, std::move(row));
-}
-
-void ReplayRows::write_cycle(msg::WorldState world, const LogicDecision& decided) {
-  world.seq = ++cycles_;
-  push(worlds_, robot::row_of(world));
-  push(drives_, robot::row_of(msg::DriveCommand{.robot_id = world.robot_id,
-                                                .seq = cycles_,
-                                                .t_ns = world.t_ns,
-                                                .vx_mps = decided.drive.vx_mps,
-                                                .vy_mps = decided.drive.vy_mps,
-                                                .omega_radps = decided.drive.omega_radps,
-                                                .lever_kind = decided.record.lever_kind}));
-  if (world.possession) write_decision(decided.record);
-  if (!decided.order) return;
-  ++orders_made_;
-  push(orders_, robot::row_of(*decided.order));
-}
-
-void ReplayRows::write_decision(const msg::KickDecision& decision) {
-  ++decisions_made_;
-  push(decisions_, robot::row_of(decision));
-  if (decision.reason != msg::REASON_NOT_PLAYING && assigned_.emplace(decision.half, decision.possession_id).second) {
-    robot::RowCells row;
-    robot::write_assignment(row, decision.robot_id, decision.half, decision.possession_id, msg::policy_name(decision),
-                            decision.assignment_probability, decision.t_ns);
-    push(assignments_, std::move(row.cells));
-  }
-  for (std::int64_t i = 0; i < decision.shadow_count; ++i) {
-    robot::RowCells row;
-    robot::write_shadow(row, decision.robot_id, static_cast<std::int64_t>(decision.seq), i, decision.shadows[i]);
-    push(shadows_, std::move(row.cells));
-  }
-}
 
 void refuse_oracle(const config::KickDecision& settings, int robot_id) {
   const robot::PolicyAssignment assignment{settings, static_cast<std::uint8_t>(robot_id)};

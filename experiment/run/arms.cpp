@@ -10,7 +10,6 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "config/arms.hpp"
 #include "config/text/error.hpp"
 #include "config/text/installation.hpp"
 #include "config/text/open_file.hpp"
@@ -83,7 +82,7 @@ void check_policy(const config::ArmFields& arm, kicking::PolicyName policy, cons
   }
   if (facts(policy).needs_model() && !settings.policy.learned) {
     throw BadArgument{fmt::format("{}: the policy {} needs a model: {} 'kick_decision.learned_model=\"FILE\"'",
-                                  arm.place, kicking::name(policy), base.set_called)};
+                                  arm.place, kicking::name(policy), base.dashes + "set")};
   }
 }
 
@@ -106,7 +105,7 @@ Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
   arm.policy = fields.policy;
   arm.table = fields.table;
   std::vector<config::SettingLine> overrides;
-  for (const std::string& line : base.overrides) overrides.push_back({line, base.set_called + ' ' + line});
+  for (const std::string& line : base.overrides) overrides.push_back({line, base.dashes + "set " + line});
   arm.settings = arm_settings(fields, fields.config.empty() ? base.config : fields.config, std::move(overrides));
   arm.robots = load_robots(fields, base);
   arm.own_robots = !fields.robots.empty();
@@ -161,7 +160,7 @@ std::vector<Arm> arms_of(const std::vector<config::ArmFields>& fields, const Arm
 }
 
 std::vector<Arm> arms_of(const std::string& text, const ArmBase& base) {
-  return arms_of(text.ends_with(".toml") ? config::load_arms(text) : arms_named(text, base.arms_called), base);
+  return arms_of(text.ends_with(".toml") ? config::load_arms(text) : arms_named(text, base.dashes + "arms"), base);
 }
 
 std::vector<std::string> shared_robots(const sim::Scenario& scenario, const std::vector<Arm>& arms) {
@@ -193,14 +192,23 @@ std::string describe(const Arm& arm) {
   return text + "\n### learned model\n" + config::read_text_file(model);
 }
 
+std::string describe(const std::vector<Team>& calibrations) {
+  std::string text;
+  for (std::size_t k = 0; k < calibrations.size(); ++k) {
+    text += fmt::format("\n### calibration {}\n", k);
+    for (const config::Robot& robot : calibrations[k]) text += config::to_toml_text(robot);
+  }
+  return text;
+}
+
 namespace {
 
 /// What the calibration left behind, without the day on which it was computed: the same plan makes the same log
 /// tomorrow.
-config::Robot robot_of(const sim::Scenario& world, const RepeatedCalibration& plan, std::uint32_t calibration,
+config::Robot robot_of(const sim::Scenario& world, std::uint64_t seed, std::uint32_t calibration,
                        std::uint32_t robot_id) try {
   config::Robot robot =
-      calibrated_robot(world, static_cast<std::int64_t>(calibration_seed(plan.seed, calibration, robot_id)), robot_id);
+      calibrated_robot(world, static_cast<std::int64_t>(calibration_seed(seed, calibration, robot_id)), robot_id);
   robot.name = fmt::format("calibration_{}_robot_{}", calibration, robot_id);
   robot.calibration.reset();
   return robot;
@@ -211,27 +219,27 @@ config::Robot robot_of(const sim::Scenario& world, const RepeatedCalibration& pl
 }  // namespace
 
 void check_calibrations(const ArmBase& base, std::uint32_t calibrations, std::uint32_t matches) {
-  const std::string called = base.before_numbers + "calibrations";
+  const std::string called = base.dashes + "calibrations";
   if (calibrations > 0 && !base.robots.empty()) {
     throw config::BadArgument{
         fmt::format("{} and {} {}: robots are those of files or of calibrations; leave one out ({} 0)",
-                    base.robots_called, called, calibrations, called)};
+                    base.dashes.empty() ? "robots" : "--robot", called, calibrations, called)};
   }
   if (calibrations > matches) {
     throw config::BadArgument{
-        fmt::format("{} {}: more calibrations than {}matches {}", called, calibrations, base.before_numbers, matches)};
+        fmt::format("{} {}: more calibrations than {}matches {}", called, calibrations, base.dashes, matches)};
   }
 }
 
-std::vector<Team> calibrated_teams(const sim::Scenario& world, const RepeatedCalibration& plan,
+std::vector<Team> calibrated_teams(const sim::Scenario& world, std::uint32_t calibrations, const PlayPlan& plan,
                                    const std::function<void(std::size_t done, std::size_t all)>& progress) {
   const std::uint32_t robots = team_size(world);
-  std::vector<Team> teams(plan.calibrations, Team(robots));
+  std::vector<Team> teams(calibrations, Team(robots));
   const auto play = [&](std::size_t i) {
     const auto calibration = static_cast<std::uint32_t>(i / robots), robot = static_cast<std::uint32_t>(i % robots);
-    teams[calibration][robot] = robot_of(world, plan, calibration, robot + 1);
+    teams[calibration][robot] = robot_of(world, plan.seed, calibration, robot + 1);
   };
-  in_threads(std::size_t{plan.calibrations} * robots, plan.jobs, play, progress);
+  in_threads(std::size_t{calibrations} * robots, plan.jobs, play, progress);
   return teams;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "config/settings.hpp"
 #include "experiment/play/arm.hpp"
 #include "kicking/random/draws.hpp"
+#include "log/shards/shards.hpp"
 #include "sim/scenario.hpp"
 
 namespace trivela::experiment {
@@ -19,10 +21,7 @@ struct ArmBase {
   std::string config;                  ///< settings of the nodes
   std::vector<std::string> overrides;  ///< settings on top
   std::vector<std::string> robots;     ///< robot files; empty: the calibrated ones
-  std::string arms_called = "arms";    ///< in sentences on the arms' text
-  std::string set_called = "set";      ///< in sentences on the overrides
-  std::string robots_called = "robots";
-  std::string before_numbers{};  ///< "--" where sentences call matches and calibrations by flags
+  std::string dashes{};                ///< "--" where sentences call all that is given by flags
 };
 
 /// The arms that `text` names: policies such as "stopped,moving,predictive", each "@old" or "@new" where it plays with
@@ -51,27 +50,8 @@ config::Settings arm_settings(const config::ArmFields& arm, const std::string& c
 /// The robots of one team as a calibration left them, robot n's at n - 1.
 using Team = std::vector<config::Robot>;
 
-/// The arms of an experiment in each calibration. Match m is played with calibration m mod K: every calibration has
-/// the same number of matches, give or take one, and all arms of a match have the same.
-class CalibratedArms {
- public:
-  /// `calibrations` empty: the arms as they are, in every match. An arm with own_robots keeps them.
-  CalibratedArms(const std::vector<Arm>& arms, const std::vector<Team>& calibrations) {
-    arms_.assign(calibrations.empty() ? 1 : calibrations.size(), arms);
-    for (std::size_t k = 0; k < calibrations.size(); ++k) {
-      for (Arm& arm : arms_[k]) {
-        if (!arm.own_robots) arm.robots = calibrations[k];
-      }
-    }
-  }
-
-  std::uint32_t calibrations() const { return static_cast<std::uint32_t>(arms_.size()); }
-  std::uint32_t calibration_of(std::uint32_t match) const { return match % calibrations(); }
-  const std::vector<Arm>& of(std::uint32_t match) const { return arms_[calibration_of(match)]; }
-
- private:
-  std::vector<std::vector<Arm>> arms_;  // by calibration
-};
+/// Calibrations as text.
+std::string describe(const std::vector<Team>& calibrations);
 
 inline constexpr std::uint64_t kCalibrationSeeds =
     1'000'001;  ///< 0 to 1e6, as `trivela calibrate run --seed` takes them
@@ -83,20 +63,38 @@ inline std::uint64_t calibration_seed(std::uint64_t seed, std::uint32_t calibrat
   return (std::uint64_t{words[0]} << 32 | words[1]) % kCalibrationSeeds;
 }
 
-/// Which calibrations an experiment plays before its matches.
-struct RepeatedCalibration {
-  std::uint32_t calibrations = 0;  ///< 0: none, robots are those of the files
-  std::uint64_t seed = 1;          ///< of the experiment
+/// How much is played.
+struct PlayPlan {
+  std::uint64_t seed = 1;
+  std::uint32_t matches = 1;       ///< of each arm
+  std::uint32_t possessions = 60;  ///< a match
   unsigned jobs = 1;               ///< threads
+  /// Teams as calibrations left them. Match m is played with team m mod their number, in every arm but one that has
+  /// robots of its own: every calibration has as many matches, give or take one. Empty: each arm's robots.
+  std::vector<Team> calibrations{};
+  std::optional<log::Shard> shard{};  ///< whose share of the matches is played; none: all of them
+
+  /// The matches that are played.
+  log::MatchRange range() const { return log::range_of(shard, matches); }
+
+  /// The number of a match's calibration; 0 where there are none.
+  std::uint32_t calibration_of(std::uint32_t match) const {
+    return calibrations.empty() ? 0 : match % static_cast<std::uint32_t>(calibrations.size());
+  }
+
+  /// The arm as it plays the match.
+  Arm in_match(std::uint32_t match, Arm arm) const {
+    if (!calibrations.empty() && !arm.own_robots) arm.robots = calibrations[calibration_of(match)];
+    return arm;
+  }
 };
 
 /// Throws config::BadArgument where `base` names robot files, too, and where there are more calibrations than matches.
 void check_calibrations(const ArmBase& base, std::uint32_t calibrations, std::uint32_t matches);
 
-/// The teams that the calibrations leave behind. The same for any number of jobs. `progress`: calibrations of robots
-/// that were played, of how many; called by one thread at a time.
-std::vector<Team> calibrated_teams(
-    const sim::Scenario& world, const RepeatedCalibration& plan,
-    const std::function<void(std::size_t done, std::size_t all)>& progress = [](auto, auto) {});
+/// The teams that so many calibrations before the plan's matches leave behind. The same for any number of jobs.
+/// `progress`: calibrations of robots that were played, of how many; called by one thread at a time.
+std::vector<Team> calibrated_teams(const sim::Scenario& world, std::uint32_t calibrations, const PlayPlan& plan,
+                                   const std::function<void(std::size_t done, std::size_t all)>& progress);
 
 }  // namespace trivela::experiment

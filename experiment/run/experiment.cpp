@@ -9,7 +9,6 @@
 #include "config/text/error.hpp"
 #include "config/text/installation.hpp"
 #include "evaluator/render/text_table.hpp"
-#include "experiment/run/arms.hpp"
 #include "experiment/run/match_play.hpp"
 #include "experiment/study/effects.hpp"
 #include "log/read/reader.hpp"
@@ -56,11 +55,11 @@ Session session_of(const ExperimentPlan& plan, const Arm& arm) {
 /// Sessions of an experiment's arms; what all matches of a calibration share is made once.
 class Sessions {
  public:
-  Sessions(const ExperimentPlan& plan, const CalibratedArms& calibrations, const std::string& arguments)
-      : arguments_sha256_(log::sha256(arguments)), sessions_(calibrations.calibrations()) {
-    for (std::uint32_t k = 0; k < calibrations.calibrations(); ++k) {
-      for (const Arm& arm : calibrations.of(k)) {
-        sessions_[k].push_back(session_of(plan, arm));
+  Sessions(const ExperimentPlan& plan, const std::string& arguments)
+      : arguments_sha256_(log::sha256(arguments)), sessions_(std::max<std::size_t>(plan.calibrations.size(), 1)) {
+    for (std::uint32_t k = 0; k < sessions_.size(); ++k) {
+      for (const Arm& arm : plan.arms) {
+        sessions_[k].push_back(session_of(plan, plan.in_match(k, arm)));
         if (!plan.calibrations.empty()) sessions_[k].back().calibration_id = k;
       }
     }
@@ -82,13 +81,11 @@ class Sessions {
 /// What the arms did in each match.
 std::map<std::string, ArmTally> tallies_of(const ExperimentPlan& plan, const std::string& out) {
   std::map<std::string, ArmTally> arms;
-  const CalibratedArms calibrations{{}, plan.calibrations};
   const log::MatchRange range = plan.range();
   for (const Arm& arm : plan.arms) {
     ArmTally& tally = arms[arm.name];
     tally.reserve(range.size());
-    for (std::uint32_t m = range.begin; m < range.end; ++m)
-      tally.push_back({.calibration = calibrations.calibration_of(m)});
+    for (std::uint32_t m = range.begin; m < range.end; ++m) tally.push_back({.calibration = plan.calibration_of(m)});
   }
   const log::Reader reader{out, log::Check::kQuick};  // it was just written
   const auto count = [&](const std::string& rows, std::int64_t MatchTally::*field) {
@@ -107,7 +104,7 @@ std::map<std::string, ArmTally> tallies_of(const ExperimentPlan& plan, const std
 
 }  // namespace
 
-std::string to_text(const ExperimentPlan& plan, const ExperimentRun& run, unsigned jobs, const std::string& out) {
+std::string to_text(const ExperimentPlan& plan, const ExperimentRun& run, const std::string& out) {
   const auto arms = tallies_of(plan, out);
   std::size_t width = 3;
   for (const Arm& arm : plan.arms) width = std::max(width, arm.name.size());
@@ -146,7 +143,7 @@ std::string to_text(const ExperimentPlan& plan, const ExperimentRun& run, unsign
   const double opportunities =
       static_cast<double>(run.matches) * plan.possessions * static_cast<double>(plan.arms.size());
   return text + fmt::format("{:.0f} opportunities in {:.2f} s with {} job{}: {:.0f} a second\n", opportunities,
-                            run.wall_s, jobs, jobs == 1 ? "" : "s",
+                            run.wall_s, plan.jobs, plan.jobs == 1 ? "" : "s",
                             run.wall_s > 0.0 ? opportunities / run.wall_s : 0.0);
 }
 
@@ -155,22 +152,17 @@ std::string ExperimentPlan::arguments() const {
                                  config::software_version(), seed, possessions, options.shadows, options.every_cycle);
   text += "\n### scenario " + scenario_name + "\n" + config::to_toml_text(scenario);
   for (const Arm& arm : arms) text += "\n### arm\n" + describe(arm);
-  for (std::size_t k = 0; k < calibrations.size(); ++k) {
-    text += fmt::format("\n### calibration {}\n", k);
-    for (const config::Robot& robot : calibrations[k]) text += config::to_toml_text(robot);
-  }
-  return text;
+  return text + describe(calibrations);
 }
 
 void check_playable(const ExperimentPlan& plan) {
   if (plan.arms.size() > log::kMostArms)
     throw config::BadArgument{
         fmt::format("{} arms, {} at most fit into an experiment", plan.arms.size(), log::kMostArms)};
-  const CalibratedArms calibrations{plan.arms, plan.calibrations};
-  for (std::size_t i = 0; i < plan.arms.size(); ++i) {
-    check_playable(plan.scenario, plan.arms[i], plan.possessions);
+  for (const Arm& each : plan.arms) {
+    check_playable(plan.scenario, each, plan.possessions);
     for (std::uint32_t match_id = 0; match_id < std::min(plan.matches, kTriedMatches); ++match_id) {
-      const Arm& arm = calibrations.of(match_id)[i];
+      const Arm arm = plan.in_match(match_id, each);
       for (std::uint8_t robot_id = 1; robot_id <= team_size(plan.scenario); ++robot_id) {
         try {
           robot_of(plan.scenario, arm, plan.seed, match_id, robot_id);
@@ -182,15 +174,13 @@ void check_playable(const ExperimentPlan& plan) {
   }
 }
 
-ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out,
-                             const ExperimentWatch& watch) {
+ExperimentRun run_experiment(const ExperimentPlan& plan, const std::string& out, const ExperimentWatch& watch) {
   const std::string arguments = plan.arguments();
   const log::MatchRange range = plan.range();
   ExperimentLog log{
       out, {plan.shard ? log::stamped_arguments({arguments, *plan.shard, plan.matches}) : arguments, range.size()}};
   MatchTables tables{log};
-  const CalibratedArms calibrations{plan.arms, plan.calibrations};
-  Sessions sessions{plan, calibrations, arguments};
+  Sessions sessions{plan, arguments};
   const auto first = range.begin + static_cast<std::uint32_t>(log.matches_done());
   watch.found(log.matches_done());
   ExperimentRun run{.processor_s = std::vector<double>(plan.arms.size())};
@@ -206,7 +196,7 @@ ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const st
     log.end_match();
     if (watch.played) watch.played(match_id, arms);
   };
-  play_matches(plan, first, jobs, true, watch, write);
+  play_matches(plan, first, true, watch, write);
   log.commit();
   run.wall_s = std::chrono::duration<double>{std::chrono::steady_clock::now() - started}.count();
   run.in_log = log.matches_done();

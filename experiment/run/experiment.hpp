@@ -2,30 +2,20 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiment/play/play_match.hpp"
 #include "experiment/run/arms.hpp"
-#include "log/shards/shards.hpp"
 
 namespace trivela::experiment {
 
 /// What `trivela simulate` plays.
-struct ExperimentPlan {
-  sim::Scenario scenario;
-  std::string scenario_name;
-  std::vector<Arm> arms;
-  std::uint64_t seed = 1;
-  std::uint32_t matches = 1;
-  std::uint32_t possessions = 60;
-  PlayOptions options;
-  std::vector<Team> calibrations;     ///< match m is played with calibration m mod their number; empty: none
-  std::optional<log::Shard> shard{};  ///< whose share of the matches is played; none: all of them
-
-  /// The matches that are played.
-  log::MatchRange range() const { return log::range_of(shard, matches); }
+struct ExperimentPlan : PlayPlan {
+  sim::Scenario scenario{};
+  std::string scenario_name{};
+  std::vector<Arm> arms{};
+  PlayOptions options{};
 
   /// Everything that the rows of a match depend on, as text.
   std::string arguments() const;
@@ -55,12 +45,11 @@ struct ExperimentRun {
   bool complete = false;            ///< nobody stopped it
 };
 
-/// Plays what is missing of a playable plan in the log `out` with `jobs` threads. The rows do not depend on `jobs`, nor
-/// on how often the run was stopped.
-ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out,
-                             const ExperimentWatch& watch);
+/// Plays what is missing of a playable plan in the log `out`. The rows do not depend on the number of threads, nor on
+/// how often the run was stopped.
+ExperimentRun run_experiment(const ExperimentPlan& plan, const std::string& out, const ExperimentWatch& watch);
 
 /// What each arm did in the complete experiment, or shard, in the log `out`, and how fast the run was.
-std::string to_text(const ExperimentPlan& plan, const ExperimentRun& run, unsigned jobs, const std::string& out);
+std::string to_text(const ExperimentPlan& plan, const ExperimentRun& run, const std::string& out);
 
 }  // namespace trivela::experiment

@@ -9,7 +9,6 @@
 #include <mutex>
 #include <utility>
 
-#include "experiment/play/play_match.hpp"
 #include "experiment/run/in_threads.hpp"
 #include "kicking/geometry/time.hpp"
 #include "robot/recording/message_row.hpp"
@@ -23,12 +22,12 @@ double processor_s() {
   return static_cast<double>(now.tv_sec) + kicking::seconds(now.tv_nsec);
 }
 
-std::vector<ArmMatch> play_arms(const ExperimentPlan& plan, const std::vector<Arm>& arms, std::uint32_t match_id,
-                                bool recorded) {
-  std::vector<ArmMatch> matches(arms.size());
-  for (std::size_t i = 0; i < arms.size(); ++i) {
+std::vector<ArmMatch> play_arms(const ExperimentPlan& plan, std::uint32_t match_id, bool recorded) {
+  std::vector<ArmMatch> matches(plan.arms.size());
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const Arm arm = plan.in_match(match_id, plan.arms[i]);
     const double before_s = processor_s();
-    matches[i].played = play_match(plan.scenario, arms[i], plan.seed, match_id, plan.possessions, plan.options,
+    matches[i].played = play_match(plan.scenario, arm, plan.seed, match_id, plan.possessions, plan.options,
                                    recorded ? &matches[i].record : nullptr);
     matches[i].processor_s = processor_s() - before_s;
   }
@@ -72,17 +71,16 @@ std::size_t add_table(log::ExperimentLog& log) {
 
 }  // namespace
 
-bool play_matches(const ExperimentPlan& plan, std::uint32_t first, unsigned jobs, bool recorded,
-                  const ExperimentWatch& watch, const TakeMatch& take) {
-  const CalibratedArms calibrations{plan.arms, plan.calibrations};
+bool play_matches(const ExperimentPlan& plan, std::uint32_t first, bool recorded, const ExperimentWatch& watch,
+                  const TakeMatch& take) {
   const auto started = std::chrono::steady_clock::now();
   OrderedMatches matches{first, take};
   try {
     in_threads(
-        plan.range().end - first, jobs,
+        plan.range().end - first, plan.jobs,
         [&](std::size_t i) {
           const std::uint32_t match_id = first + static_cast<std::uint32_t>(i);
-          matches.add(match_id, play_arms(plan, calibrations.of(match_id), match_id, recorded));
+          matches.add(match_id, play_arms(plan, match_id, recorded));
         },
         [&](std::size_t done, std::size_t all) {
           const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;

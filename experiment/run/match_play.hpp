@@ -20,11 +20,11 @@ struct ArmMatch {
 /// Gets the match of every arm.
 using TakeMatch = std::function<void(std::uint32_t match_id, const std::vector<ArmMatch>& arms)>;
 
-/// Plays the matches of the plan's range from `first` on with `jobs` threads. `take` gets them in the order of their
+/// Plays the matches of the plan's range from `first` on. `take` gets them in the order of their
 /// numbers, whatever order they are played in: one call at a time, by any of the threads, while the others play on.
 /// False: watch.stop asked to stop. Rethrows what `take` and the watch throw.
-bool play_matches(const ExperimentPlan& plan, std::uint32_t first, unsigned jobs, bool recorded,
-                  const ExperimentWatch& watch, const TakeMatch& take);
+bool play_matches(const ExperimentPlan& plan, std::uint32_t first, bool recorded, const ExperimentWatch& watch,
+                  const TakeMatch& take);
 
 /// Writes the messages of matches played in process to the tables that a recorder would write them to.
 class MatchTables {

@@ -8,8 +8,8 @@
 namespace trivela::experiment {
 namespace {
 
-StudyAnswer answer_of_arms(const Study& study, std::vector<StudyRow>& rows, const StudyPlayed& played) {
-  StudyAnswer answer;
+StudyReport answer_of_arms(const Study& study, std::vector<StudyRow>& rows, const StudyPlayed& played) {
+  StudyReport answer;
   for (StudyRow& row : rows) {
     answer.text += label_warning(row.label("arm"), row.matches);
     if (&row == &rows.front()) continue;
@@ -20,7 +20,7 @@ StudyAnswer answer_of_arms(const Study& study, std::vector<StudyRow>& rows, cons
   return answer;
 }
 
-StudyAnswer answer_of_worlds(const Study& study, std::vector<StudyRow>& rows, std::size_t rival) {
+StudyReport answer_of_worlds(const Study& study, std::vector<StudyRow>& rows, std::size_t rival) {
   const std::size_t arms = study.worlds.front().arms.size();
   std::vector<std::size_t> below(arms);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -31,14 +31,14 @@ StudyAnswer answer_of_worlds(const Study& study, std::vector<StudyRow>& rows, st
     below[i % arms] += has_interval(change) && change.ci.lo < 0.0 ? 1 : 0;
   }
   const std::string& name = rows[rival].label("arm");
-  StudyAnswer answer{.text = "\nNo robot is calibrated again. Worlds where the interval reaches below 0:\n",
-                     .more = {{"rival", name}},
+  StudyReport answer{.text = "\nNo robot is calibrated again. Worlds where the interval reaches below 0:\n",
+                     .json = {{"rival", name}},
                      .svg = chart_of(rows, "arm", {Measure::kPerOpportunity}, study.changes)};
   for (std::size_t i = 0; i < arms; ++i)
     if (i != rival)
       answer.text += fmt::format("  {} - {}: {} of {}\n", rows[i].label("arm"), name, below[i], rows.size() / arms);
   for (const StudyWorld& world : study.worlds)
-    answer.more["worlds"].push_back({{"world", world.what}, {"why", world.why}});
+    answer.json["worlds"].push_back({{"world", world.what}, {"why", world.why}});
   return answer;
 }
 
@@ -48,7 +48,7 @@ double share(const MatchTally& tally, Measure measure) {
   return evaluator::stats::efficiency(counts_of(tally, measure)).value_or(std::nan(""));
 }
 
-StudyAnswer answer_of_frontier(const Study& study, std::vector<StudyRow>& rows, const StudyPlayed&) {
+StudyReport answer_of_frontier(const Study& study, std::vector<StudyRow>& rows, const StudyPlayed&) {
   for (StudyRow& row : rows)
     if (!on_frontier(row) && &row != &rows.back()) row.changes = {frontier_above(rows, row)};
   const StudyRow& best = *std::ranges::max_element(
@@ -59,7 +59,7 @@ StudyAnswer answer_of_frontier(const Study& study, std::vector<StudyRow>& rows, 
   of_oracle.ci.lo = has_interval(of_oracle) ? std::max(of_oracle.ci.lo, 0.0) : of_oracle.ci.lo;
   return {.text = fmt::format("At its best threshold, {}, {} has {} % of the oracle's shots on target.\n",
                               best.label("threshold"), best.label("policy"), share_text(of_oracle)),
-          .more = {{"policy", best.label("policy")},
+          .json = {{"policy", best.label("policy")},
                    {"of_oracle", {{"threshold", std::stod(best.label("threshold"))}, {"share", json_of(of_oracle)}}}},
           .svg = chart_of(rows, "", {Measure::kKicks, Measure::kEfficiency}, study.changes)};
 }
@@ -94,8 +94,8 @@ Effect frontier_above(const std::vector<StudyRow>& rows, const StudyRow& fixed) 
 }
 
 Study arms_study(const sim::Scenario& scenario, const std::vector<Arm>& arms) {
-  StudyWorld world{.what = "the arms", .scenario = scenario, .arms = arms};
-  for (const Arm& arm : arms) world.labels.push_back({{"arm", arm.name}});
+  StudyWorld world{.what = "the arms", .scenario = scenario};
+  for (const Arm& arm : arms) world.add(arm, {{"arm", arm.name}});
   Study study{.name = "arms", .whom = "arm", .worlds = {std::move(world)}, .answer = answer_of_arms};
   const std::string less = " minus " + arms.front().name;
   if (arms.size() > 1)
@@ -108,8 +108,8 @@ Study robustness_study(const std::vector<Arm>& arms, const std::string& rival,
                        const std::vector<config::NamedWorld>& worlds) {
   Study study{.name = "robustness", .whom = "arm of a world", .changes = {{"change", "minus " + rival}}};
   for (const config::NamedWorld& named : worlds) {
-    StudyWorld& world = study.worlds.emplace_back(StudyWorld{named.name, named.scenario, arms, {}, named.why});
-    for (const Arm& arm : arms) world.labels.push_back({{"world", named.name}, {"arm", arm.name}});
+    StudyWorld& world = study.worlds.emplace_back(StudyWorld{named.name, named.scenario, {}, {}, named.why});
+    for (const Arm& arm : arms) world.add(arm, {{"world", named.name}, {"arm", arm.name}});
   }
   const auto place = static_cast<std::size_t>(std::ranges::find(arms, rival, &Arm::name) - arms.begin());
   study.answer = [place](const Study& asked, std::vector<StudyRow>& rows, const StudyPlayed&) {
@@ -118,18 +118,14 @@ Study robustness_study(const std::vector<Arm>& arms, const std::string& rival,
   return study;
 }
 
-Study frontier_study(const sim::Scenario& scenario, const Arm& policy, const std::vector<double>& thresholds,
+Study frontier_study(const sim::Scenario& scenario, const Arm& policy, const std::set<double>& thresholds,
                      const std::vector<Arm>& beside) {
   StudyWorld world{.what = "the frontier", .scenario = scenario};
   for (const double threshold : thresholds) {
-    world.arms.push_back(policy);
+    world.add(policy, {{"policy", policy.name}, {"threshold", fmt::format("{:g}", threshold)}});
     world.arms.back().settings.policy.predictive.threshold = threshold;
-    world.labels.push_back({{"policy", policy.name}, {"threshold", fmt::format("{:g}", threshold)}});
   }
-  for (const Arm& arm : beside) {
-    world.arms.push_back(arm);
-    world.labels.push_back({{"policy", arm.name}, {"threshold", ""}});
-  }
+  for (const Arm& arm : beside) world.add(arm, {{"policy", arm.name}, {"threshold", ""}});
   return {.name = "frontier",
           .whom = "policy and threshold",
           .changes = {{"frontier_above", "frontier above"}},

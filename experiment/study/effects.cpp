@@ -7,8 +7,6 @@
 #include <cmath>
 
 #include "evaluator/render/table.hpp"
-#include "evaluator/stats/clustered.hpp"
-#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::experiment {
 namespace {

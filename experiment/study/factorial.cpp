@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -20,8 +19,6 @@ using kicking::PolicyName;
 // What the paper observed: Table 2 (34 of 65 and 100 of 132 kicks on target).
 constexpr evaluator::stats::Counts kPaperOlder{34, 65}, kPaperNewer{100, 132};
 constexpr double kPaperKickRatio = 132.0 / 65.0;
-
-constexpr std::array kLaws{"paper", "released", "exact"};
 constexpr std::size_t kCells = 14;
 
 /// A main effect or an interaction: a sum of the cells with these signs, divided by `of`.
@@ -62,7 +59,7 @@ std::optional<double> meets(const std::vector<Pair>& pairs, double (*number)(con
   return std::nullopt;
 }
 
-void add_effects(StudyAnswer& answer, const std::vector<StudyRow>& rows, Measure efficiency) {
+void add_effects(StudyReport& answer, const std::vector<StudyRow>& rows, Measure efficiency) {
   evaluator::Table table{{{"effect", "effect [points]"},
                           {"of", "", ""},
                           {"efficiency", "efficiency", "{:+.1f}", 100.0},
@@ -77,13 +74,13 @@ void add_effects(StudyAnswer& answer, const std::vector<StudyRow>& rows, Measure
                           json_of(contrast(terms, Measure::kPerOpportunity))});
     legend += fmt::format("  {}: {}\n", effect.key, effect.what);
   }
-  answer.more["effects"] = rows_json(table);
+  answer.json["effects"] = rows_json(table);
   answer.text += '\n' + evaluator::text_table(texts_of(table)) + legend +
                  "It says nothing about why the paper's tournaments differed.\n";
 }
 
 /// A line a point and way to count blocked kicks.
-void add_pairs(StudyAnswer& answer, const std::vector<Pair>& pairs) {
+void add_pairs(StudyReport& answer, const std::vector<Pair>& pairs) {
   evaluator::Table table{{{"opponent_median_m", "opponents [m]", "{:g}"},
                           {"eye_bias_m", "eye's common error [m]", "{:g}"},
                           {"blocked", "blocked"},
@@ -106,12 +103,12 @@ void add_pairs(StudyAnswer& answer, const std::vector<Pair>& pairs) {
                             blocked, json_of(ratio), json_of(before), json_of(after), within, within ? "yes" : "no"});
     }
   }
-  answer.more["pair"] = rows_json(table);
+  answer.json["pair"] = rows_json(table);
   answer.text += fmt::format("\nThe paper: kick ratio {:.2f}, 52.3 and 75.8 %.\n{}", kPaperKickRatio,
                              evaluator::text_table(texts_of(table)));
 }
 
-void add_ratio(StudyAnswer& answer, const std::vector<Pair>& pairs) {
+void add_ratio(StudyReport& answer, const std::vector<Pair>& pairs) {
   const auto at_m = meets(pairs, [](const Effect& ratio) { return ratio.value; });
   auto from_m = meets(pairs, [](const Effect& ratio) { return ratio.ci.lo; });
   auto to_m = meets(pairs, [](const Effect& ratio) { return ratio.ci.hi; });
@@ -121,14 +118,14 @@ void add_ratio(StudyAnswer& answer, const std::vector<Pair>& pairs) {
   };
   answer.text +=
       fmt::format("The paper's kick ratio is met at: {} (95 %: {} to {})\n", text(at_m), text(from_m), text(to_m));
-  answer.more["sweep"] = {{"ratio_at_m", evaluator::json_of(at_m)},
+  answer.json["sweep"] = {{"ratio_at_m", evaluator::json_of(at_m)},
                           {"ratio_from_m", evaluator::json_of(from_m)},
                           {"ratio_to_m", evaluator::json_of(to_m)}};
 }
 
-StudyAnswer answer_of(const Study&, const std::vector<StudyRow>& rows, const StudyPlayed& played) {
+StudyReport answer_of(const Study&, const std::vector<StudyRow>& rows, const StudyPlayed& played) {
   const std::vector<StudyRow> cells(rows.begin(), rows.begin() + kCells);
-  StudyAnswer answer{.svg = chart_of(cells, "table", {played.efficiency, Measure::kPerOpportunity}, {})};
+  StudyReport answer{.svg = chart_of(cells, "table", {played.efficiency, Measure::kPerOpportunity}, {})};
   add_effects(answer, rows, played.efficiency);
   std::vector<Pair> pairs;
   for (std::size_t i = kCells; i + 1 < rows.size(); i += 2)
@@ -162,10 +159,8 @@ void add_cell(StudyWorld& world, const char* kind, const Arm& like, const std::s
 
 }  // namespace
 
-std::vector<std::string> factorial_laws() { return {kLaws.begin(), kLaws.end()}; }
-
 Study factorial_study(const sim::Scenario& scenario, const Arm& like, const std::string& law,
-                      const std::vector<double>& opponent_medians_m, const std::vector<double>& eye_biases_m) {
+                      const std::set<double>& opponent_medians_m, const std::set<double>& eye_biases_m) {
   Study study{.name = "factorial",
               .whom = "cell",
               .worlds = {{.what = "the factorial", .scenario = scenario}},
@@ -173,7 +168,7 @@ Study factorial_study(const sim::Scenario& scenario, const Arm& like, const std:
   for (const char* table : {kOldTable, kNewTable}) {
     StudyWorld& world = study.worlds.front();
     for (const PolicyName policy : {PolicyName::kStopped, PolicyName::kMoving})
-      for (const char* each : kLaws) add_cell(world, "cell", like, table, policy, each, "");
+      for (const char* each : kFactorialLaws) add_cell(world, "cell", like, table, policy, each, "");
     add_cell(world, "cell", like, table, PolicyName::kPredictive, "exact", "");
   }
   const auto add = [&](const char* kind, const std::string& what, const sim::Scenario& played,

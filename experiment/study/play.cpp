@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <mutex>
 #include <utility>
 
-#include "config/robot.hpp"
 #include "config/scenario/scenario.hpp"
 #include "experiment/play/play_match.hpp"
-#include "experiment/run/arms.hpp"
 #include "experiment/run/in_threads.hpp"
 
 namespace trivela::experiment {
@@ -35,14 +32,8 @@ MatchTally tally_of(const PlayedMatch& match, std::uint32_t calibration) {
 
 /// All that the matches of an arm depend on but their number.
 std::string text_of(const sim::Scenario& scenario, const Arm& arm, const PlayPlan& plan) {
-  std::string text = fmt::format("seed = {}\npossessions = {}\n\n### scenario\n{}\n### arm\n{}", plan.seed,
-                                 plan.possessions, config::to_toml_text(scenario), describe(arm));
-  if (arm.own_robots) return text;
-  for (std::size_t k = 0; k < plan.calibrations.size(); ++k) {
-    text += fmt::format("\n### calibration {}\n", k);
-    for (const config::Robot& robot : plan.calibrations[k]) text += config::to_toml_text(robot);
-  }
-  return text;
+  return fmt::format("seed = {}\npossessions = {}\n\n### scenario\n{}\n### arm\n{}{}", plan.seed, plan.possessions,
+                     config::to_toml_text(scenario), describe(arm), arm.own_robots ? "" : describe(plan.calibrations));
 }
 
 /// An arm of a world, and its place in the results.
@@ -56,7 +47,7 @@ struct Place {
 
 KnownPlay play_missing(const std::vector<StudyWorld>& worlds, const PlayPlan& plan, log::StudyResults& results,
                        const std::function<void(std::size_t, std::size_t, const std::string&)>& progress) {
-  const log::MatchRange range = log::range_of(plan.shard, plan.matches);
+  const log::MatchRange range = plan.range();
   std::vector<Place> places;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> missing;  // place and match
   for (const StudyWorld& world : worlds) {
@@ -78,11 +69,9 @@ KnownPlay play_missing(const std::vector<StudyWorld>& worlds, const PlayPlan& pl
   in_threads(missing.size(), plan.jobs, [&](std::size_t i) {
     const auto match = missing[i].second;
     const Place& place = places[missing[i].first];
-    Arm arm = place.world.arms[place.arm];
-    const std::size_t calibration = plan.calibrations.empty() ? 0 : match % plan.calibrations.size();
-    if (!plan.calibrations.empty() && !arm.own_robots) arm.robots = plan.calibrations[calibration];
-    const MatchTally tally = tally_of(play_match(place.world.scenario, arm, plan.seed, match, plan.possessions),
-                                      static_cast<std::uint32_t>(calibration));
+    const Arm arm = plan.in_match(match, place.world.arms[place.arm]);
+    const MatchTally tally =
+        tally_of(play_match(place.world.scenario, arm, plan.seed, match, plan.possessions), plan.calibration_of(match));
     const std::lock_guard lock{one_at_a_time};
     if (std::exchange(stopped, true)) return;
     results.add(place.kept, match, tally);

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "config/arms.hpp"
-#include "config/scenario/scenario.hpp"
 #include "config/text/csv_row.hpp"
 #include "config/text/error.hpp"
 
@@ -33,7 +32,7 @@ std::string toml_value_of(const Inputs& inputs, const std::string& key) {
   return found->second;
 }
 
-StudyAnswer answer_of(const Study& study, std::vector<StudyRow>& rows, Measure measure,
+StudyReport answer_of(const Study& study, std::vector<StudyRow>& rows, Measure measure,
                       std::vector<UncertainInput> inputs) {
   const StudyWorld& usual = study.worlds.front();
   const std::size_t arms = usual.arms.size();
@@ -53,24 +52,24 @@ StudyAnswer answer_of(const Study& study, std::vector<StudyRow>& rows, Measure m
   std::ranges::stable_sort(inputs, std::ranges::greater{}, [&](const auto& input) { return largest[input.key]; });
   std::ranges::stable_sort(rows, std::ranges::greater{}, [&](const auto& row) { return largest[row.label("input")]; });
   const bool goals = measure == Measure::kGoals;
-  StudyAnswer answer{
+  StudyReport answer{
       .text = fmt::format("\n{} per 100 opportunities; no robot is calibrated again:\n",
                           goals ? "Goals past the keeper" : "Shots on target"),
-      .more = {{"measure", goals ? "goals" : "on_target"}},
+      .json = {{"measure", goals ? "goals" : "on_target"}},
       .svg = chart_of({rows.begin() + static_cast<std::ptrdiff_t>(arms), rows.end()}, "arm", {}, study.changes)};
   for (std::size_t i = 1; i < arms; ++i) {
     const std::string name = fmt::format("{} - {}", rows[i].label("arm"), rows[i - 1].label("arm"));
     const Effect effect = difference(rows[i].matches, rows[i - 1].matches, measure);
     answer.text += fmt::format("  {}: {}\n", name, points_text(effect));
-    answer.more["headlines"].push_back(json_of(effect));
-    answer.more["headlines"].back()["headline"] = name;
+    answer.json["headlines"].push_back(json_of(effect));
+    answer.json["headlines"].back()["headline"] = name;
   }
   answer.text += "Instead of the values above it is:\n";
   for (const UncertainInput& input : inputs) {
     const std::string value = value_of({usual.scenario, usual.arms.front().settings}, input.key);
     answer.text += fmt::format("  {} = {} ({})\n", input.key, value, input.why);
     const Json number = Json::parse(value, nullptr, false);
-    answer.more["inputs"].push_back(
+    answer.json["inputs"].push_back(
         {{"input", input.key}, {"value", number.is_discarded() ? Json(value) : number}, {"why", input.why}});
   }
   return answer;

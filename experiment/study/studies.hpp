@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,7 @@ Study robustness_study(const std::vector<Arm>& arms, const std::string& rival,
                        const std::vector<config::NamedWorld>& worlds);
 
 /// Efficiency against volume: `policy` with each of the thresholds, beside arms without one, the last the oracle.
-Study frontier_study(const sim::Scenario& scenario, const Arm& policy, const std::vector<double>& thresholds,
+Study frontier_study(const sim::Scenario& scenario, const Arm& policy, const std::set<double>& thresholds,
                      const std::vector<Arm>& beside);
 
 /// Efficiency of the frontier, the rows with a threshold, minus that of `fixed` at its own number of kicks, the
@@ -31,7 +33,7 @@ Effect frontier_above(const std::vector<StudyRow>& rows, const StudyRow& fixed);
 
 /// Laws of height and motion together, from the paper's words to the exact ones: "paper" as printed, "released" with
 /// the extended range of the released code, "exact". Directions go by the paper's lines in all.
-std::vector<std::string> factorial_laws();
+inline constexpr std::array kFactorialLaws{"paper", "released", "exact"};
 
 /// {old, new table} x ({stopped, moving} x law, predictive), 14 cells of kind "cell"; predictive has no law. Then the
 /// old table and `stopped` against the new one and `moving`, as the paper's two tournaments, both with `law`:
@@ -43,7 +45,7 @@ std::vector<std::string> factorial_laws();
 /// orders of introducing them, add up to it. Of a sweep it says where the kick ratio is the paper's 2.03, linear
 /// between points, and where its 95 % interval begins and ends to have it.
 Study factorial_study(const sim::Scenario& scenario, const Arm& like, const std::string& law,
-                      const std::vector<double>& opponent_medians_m, const std::vector<double>& eye_biases_m);
+                      const std::set<double>& opponent_medians_m, const std::set<double>& eye_biases_m);
 
 /// An input of the world that nobody measured, or few did, or a setting of the policies that somebody chose, and how
 /// far it may be off. Values in the unit of its key, those of a law are names.

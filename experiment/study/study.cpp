@@ -9,7 +9,6 @@
 #include "config/scenario/scenario.hpp"
 #include "evaluator/render/table.hpp"
 #include "evaluator/render/text_table.hpp"
-#include "experiment/run/arms.hpp"
 
 namespace trivela::experiment {
 namespace {
@@ -26,7 +25,7 @@ std::string quoted(const std::string& text) {
 /// target, changes.
 evaluator::Table table_of(const Study& study, const std::vector<StudyRow>& rows, const StudyPlayed& played) {
   evaluator::Table table;
-  for (const RowLabel& label : rows.front().labels) table.columns.push_back({label.key, evaluator::words(label.key)});
+  for (const KeyText& label : rows.front().labels) table.columns.push_back({label.key, evaluator::words(label.key)});
   // What is true of all kicks is said where the labels are doubted.
   const auto counts = std::span{log::kTallyFields}.first<6>();
   for (const log::TallyField& count : counts)
@@ -37,12 +36,12 @@ evaluator::Table table_of(const Study& study, const std::vector<StudyRow>& rows,
                                              {"", "goals/opp. [%]", played.keeper ? "{:.1f}" : "", 100.0},
                                              {"", "blocked [%]", "{:.1f}"},
                                              {"", "bounced in [%]", "{:.1f}"}});
-  for (const RowChange& change : study.changes)
-    table.columns.push_back({change.key, change.heading + " [points]", "{:+.1f}", 100.0});
+  for (const KeyText& change : study.changes)
+    table.columns.push_back({change.key, change.text + " [points]", "{:+.1f}", 100.0});
   for (const StudyRow& row : rows) {
     std::vector<Json>& cells = table.rows.emplace_back();
     const MatchTally total = total_of(row.matches);
-    for (const RowLabel& label : row.labels) cells.push_back(label.text.empty() ? Json() : Json(label.text));
+    for (const KeyText& label : row.labels) cells.push_back(label.text.empty() ? Json() : Json(label.text));
     for (const log::TallyField& count : counts) cells.emplace_back(total.*count.field);
     cells.emplace_back(share_of(row.matches, Measure::kKicks).value);
     for (const Measure measure : {played.efficiency, Measure::kPerOpportunity, Measure::kGoals})
@@ -85,22 +84,17 @@ std::string csv_of(const evaluator::Table& table) {
 
 }  // namespace
 
-const std::string& StudyRow::label(const std::string& key) const {
-  return std::ranges::find(labels, key, &RowLabel::key)->text;
-}
-
 StudyReport report_of(const Study& study, std::vector<StudyRow> rows, const StudyPlayed& played) {
-  StudyAnswer answer = study.answer(study, rows, played);
+  StudyReport report = study.answer(study, rows, played);
   const evaluator::Table table = table_of(study, rows, played);
   const std::string intervals =
       played.calibrations == 0 ? "95 % intervals by match, for these robot files alone (--calibrations)"
                                : fmt::format("95 % intervals by match and by {} calibrations", played.calibrations);
-  StudyReport report{
-      .text = fmt::format("{}{} matches of {} opportunities, the same for every {}; {}, seed {}; {}.\n\n{}{}",
-                          evaluator::kSimulated, played.matches, played.possessions, study.whom, played.scenario,
-                          played.seed, intervals, evaluator::text_table(texts_of(table)), answer.text),
-      .csv = csv_of(table),
-      .json = {{"simulated", true},
+  report.text = fmt::format("{}{} matches of {} opportunities, the same for every {}; {}, seed {}; {}.\n\n{}{}",
+                            evaluator::kSimulated, played.matches, played.possessions, study.whom, played.scenario,
+                            played.seed, intervals, evaluator::text_table(texts_of(table)), report.text);
+  report.csv = csv_of(table);
+  Json json = {{"simulated", true},
                {"study", study.name},
                {"scenario", played.scenario},
                {"seed", played.seed},
@@ -109,9 +103,9 @@ StudyReport report_of(const Study& study, std::vector<StudyRow> rows, const Stud
                {"calibrations", played.calibrations},
                {"blocked", played.efficiency == Measure::kUnblocked ? "apart" : "outside"},
                {"notes", {"on_target, blocked: as robots observed them; goals, bounced: the simulator's truth"}},
-               {"rows", rows_json(table)}},
-      .svg = std::move(answer.svg)};
-  report.json.update(answer.more);
+               {"rows", rows_json(table)}};
+  json.update(report.json);
+  report.json = std::move(json);
   return report;
 }
 

@@ -1,15 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/play/arm.hpp"
 #include "experiment/run/arms.hpp"
 #include "experiment/study/effects.hpp"
-#include "log/shards/shards.hpp"
 #include "log/shards/study_results.hpp"
 #include "sim/scenario.hpp"
 
@@ -26,18 +26,13 @@ struct StudyPlayed {
   bool keeper = false;                        ///< goals mean something
 };
 
-/// What tells a row of a study from the others: "threshold", with a text; empty: this row has none.
-struct RowLabel {
+/// A name of programs, a path in JSON, with its text. What tells a row from the others: "threshold", the text empty
+/// where this row has none. A comparison of a row with others: "minus_first/efficiency", the text its heading.
+struct KeyText {
   std::string key;
   std::string text;
 };
-using RowLabels = std::vector<RowLabel>;  ///< of the same keys in all rows of a study
-
-/// A comparison of a row with others: its name as a path in JSON ("minus_first/efficiency"), and for people.
-struct RowChange {
-  std::string key;
-  std::string heading;
-};
+using RowLabels = std::vector<KeyText>;  ///< of the same keys in all rows of a study
 
 /// An arm in a world of a study, and its matches.
 struct StudyRow {
@@ -46,7 +41,7 @@ struct StudyRow {
   std::vector<Effect> changes{};  ///< in the order of the study's; empty: it is what others are compared with
 
   /// The text of a label that all rows of the study have.
-  const std::string& label(const std::string& key) const;
+  const std::string& label(const std::string& key) const { return std::ranges::find(labels, key, &KeyText::key)->text; }
 };
 
 /// A world of a study, and who plays it: all arms meet the same opportunities.
@@ -56,18 +51,11 @@ struct StudyWorld {
   std::vector<Arm> arms{};
   std::vector<RowLabels> labels{};  ///< an arm's each; empty: there are none
   std::string why{};                ///< it is as it is
-};
 
-/// How much is played.
-struct PlayPlan {
-  std::uint64_t seed = 1;
-  std::uint32_t matches = 400;
-  std::uint32_t possessions = 45;  ///< a match
-  unsigned jobs = 1;               ///< threads
-  /// Teams as calibrations left them. Match m is played with team m mod their number, in every arm but one that has
-  /// robots of its own. Empty: each arm's robots.
-  std::vector<Team> calibrations{};
-  std::optional<log::Shard> shard{};  ///< whose share of the matches is played; none: all of them
+  void add(const Arm& arm, RowLabels labels_of_arm) {
+    arms.push_back(arm);
+    labels.push_back(std::move(labels_of_arm));
+  }
 };
 
 /// What is known of the arms.
@@ -83,30 +71,26 @@ struct KnownPlay {
 KnownPlay play_missing(const std::vector<StudyWorld>& worlds, const PlayPlan& plan, log::StudyResults& results,
                        const std::function<void(std::size_t done, std::size_t all, const std::string& what)>& progress);
 
-/// What a study says beside its rows.
-struct StudyAnswer {
-  std::string text{};          ///< sentences and tables below that of the rows
-  Json more = Json::object();  ///< fields of its JSON
-  std::string svg{};           ///< chart_of() some rows
+/// What a study says.
+struct StudyReport {
+  std::string text{};
+  Json json = Json::object();
+  std::string svg{};  ///< chart_of() some rows
+  std::string csv{};
 };
 
 /// A question that is answered by arms in worlds.
 struct Study {
   std::string name;                  ///< of its verb
   std::string whom;                  ///< meet the same opportunities: "cell"
-  std::vector<RowChange> changes{};  ///< of its rows
+  std::vector<KeyText> changes{};    ///< of its rows
   std::vector<StudyWorld> worlds{};  ///< the first is the scenario as it is
-  /// Of this study's rows, in the order of worlds and arms; gives them their changes, and may sort them.
-  std::function<StudyAnswer(const Study& study, std::vector<StudyRow>& rows, const StudyPlayed& played)> answer{};
+  /// Of this study's rows, in the order of worlds and arms; gives them their changes, and may sort them. Its text
+  /// stands below the table of the rows, which the report adds with their CSV.
+  std::function<StudyReport(const Study& study, std::vector<StudyRow>& rows, const StudyPlayed& played)> answer{};
 };
 
-/// What a study gives.
-struct StudyReport {
-  std::string text;
-  std::string csv;
-  Json json;
-  std::string svg;
-};
+/// The report on the rows.
 StudyReport report_of(const Study& study, std::vector<StudyRow> rows, const StudyPlayed& played);
 
 /// What the rows of a study depend on besides seed, matches and calibrations, as text: its first scenario and arms, of
@@ -116,6 +100,6 @@ std::string arguments_of(const Study& study);
 /// Shares with their 95 % intervals, a panel a measure, then a panel a change, as SVG: a line for each thing that the
 /// labels tell apart but `series`, which has a colour for each of its texts. The first forty lines.
 std::string chart_of(const std::vector<StudyRow>& rows, const std::string& series, const std::vector<Measure>& measures,
-                     const std::vector<RowChange>& changes);
+                     const std::vector<KeyText>& changes);
 
 }  // namespace trivela::experiment

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evaluator/counting/kick_dataset.hpp"
 #include "evaluator/render/svg_chart.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "experiment/study/study.hpp"
@@ -19,14 +20,6 @@ struct Mark {
   Effect effect;
 };
 
-/// The place of a text among those that there are, with this one.
-std::size_t place_of(const std::string& text, std::vector<std::string>& texts) {
-  const auto found = std::ranges::find(texts, text);
-  const auto place = static_cast<std::size_t>(found - texts.begin());
-  if (found == texts.end()) texts.push_back(text);
-  return place;
-}
-
 /// Lines and series as the rows name them.
 struct Names {
   std::vector<std::string> lines, series;
@@ -35,13 +28,13 @@ struct Names {
   Names(const std::vector<StudyRow>& rows, const std::string& by) {
     for (const StudyRow& row : rows) {
       std::string line, colour;
-      for (const RowLabel& label : row.labels) {
+      for (const KeyText& label : row.labels) {
         const bool varies =
             std::ranges::any_of(rows, [&](const StudyRow& other) { return other.label(label.key) != label.text; });
         if (label.key == by) colour = label.text;
         if (label.key != by && varies) line += (line.empty() ? "" : " ") + label.text;
       }
-      places.push_back({place_of(line, lines), place_of(colour, series), {}});
+      places.push_back({evaluator::place_of(lines, line), evaluator::place_of(series, colour), {}});
     }
     lines.resize(std::min(lines.size(), kMostLines));
   }
@@ -97,26 +90,28 @@ std::string frame_of(const Names& names, double left, double width) {
 }  // namespace
 
 std::string chart_of(const std::vector<StudyRow>& rows, const std::string& series, const std::vector<Measure>& measures,
-                     const std::vector<RowChange>& changes) {
+                     const std::vector<KeyText>& changes) {
   const Names names{rows, series};
   std::size_t letters = 0;
   for (const std::string& line : names.lines) letters = std::max(letters, line.size());
   const double left = 40.0 + kLetter * static_cast<double>(letters);
-  const std::size_t panels = measures.size() + changes.size();
-  std::string svg = frame_of(names, left, left + (kPanel + kGap) * static_cast<double>(panels));
-  for (std::size_t panel = 0; panel < panels; ++panel) {
-    const std::size_t change = panel - measures.size();
-    const bool measured = panel < measures.size();
-    std::vector<Mark> marks;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      Mark mark = names.places[i];
-      if (mark.line >= names.lines.size() || (!measured && change >= rows[i].changes.size())) continue;
-      mark.effect = measured ? share_of(rows[i].matches, measures[panel]) : rows[i].changes[change];
-      if (std::isfinite(mark.effect.value)) marks.push_back(mark);
+  std::vector<std::string> titles;
+  for (const Measure measure : measures) titles.emplace_back(name_of(measure));
+  for (const KeyText& change : changes) titles.push_back(change.text + " [points]");
+  std::vector<std::vector<Mark>> marks(titles.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<Effect> effects;
+    for (const Measure measure : measures) effects.push_back(share_of(rows[i].matches, measure));
+    effects.insert(effects.end(), rows[i].changes.begin(), rows[i].changes.end());
+    Mark mark = names.places[i];
+    for (std::size_t panel = 0; panel < std::min(effects.size(), titles.size()) && mark.line < kMostLines; ++panel) {
+      mark.effect = effects[panel];
+      if (std::isfinite(mark.effect.value)) marks[panel].push_back(mark);
     }
-    svg += panel_of(measured ? name_of(measures[panel]) : changes[change].heading + " [points]", marks, names,
-                    left + (kPanel + kGap) * static_cast<double>(panel));
   }
+  std::string svg = frame_of(names, left, left + (kPanel + kGap) * static_cast<double>(titles.size()));
+  for (std::size_t panel = 0; panel < titles.size(); ++panel)
+    svg += panel_of(titles[panel], marks[panel], names, left + (kPanel + kGap) * static_cast<double>(panel));
   return svg + "</svg>\n";
 }
 

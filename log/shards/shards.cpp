@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -129,7 +128,6 @@ bool any_is_shard(const std::vector<fs::path>& files) {
 MergedShards merge_shards(const std::vector<fs::path>& files, const fs::path& to,
                           const std::function<bool(std::int64_t, std::int64_t)>& told) {
   std::vector<Part> parts;
-  parts.reserve(files.size());
   for (const fs::path& path : files) {
     const auto part = part_in(path, Check::kWhole);
     if (!part)

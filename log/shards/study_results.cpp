@@ -11,7 +11,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 
 #include "log/file/new_file.hpp"
 #include "log/schema/digest.hpp"

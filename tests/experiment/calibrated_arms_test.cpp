@@ -23,22 +23,21 @@ std::vector<Arm> two_arms() {
   return {{.name = "moving", .settings = {}, .random = {}}, own};
 }
 
-TEST(CalibratedArms, GiveEachMatchOneCalibrationInTurnToEveryArmButOneWithRobotsOfItsOwn) {
-  const CalibratedArms calibrations{two_arms(), {team_of(0.05), team_of(0.06), team_of(0.07)}};
+TEST(PlayPlan, GivesEachMatchOneCalibrationInTurnToEveryArmButOneWithRobotsOfItsOwn) {
+  const PlayPlan plan{.calibrations = {team_of(0.05), team_of(0.06), team_of(0.07)}};
   std::map<std::uint32_t, int> matches;
   for (std::uint32_t match = 0; match < 31; ++match) {
-    ++matches[calibrations.calibration_of(match)];
-    EXPECT_DOUBLE_EQ(calibrations.of(match)[0].robots[0].model.delay_s,
-                     0.05 + 0.01 * calibrations.calibration_of(match));
-    EXPECT_EQ(calibrations.of(match)[1].robots[0].model.delay_s, config::Robot{}.model.delay_s);
+    ++matches[plan.calibration_of(match)];
+    EXPECT_DOUBLE_EQ(plan.in_match(match, two_arms()[0]).robots[0].model.delay_s,
+                     0.05 + 0.01 * plan.calibration_of(match));
+    EXPECT_EQ(plan.in_match(match, two_arms()[1]).robots[0].model.delay_s, config::Robot{}.model.delay_s);
   }
   EXPECT_EQ(matches, (std::map<std::uint32_t, int>{{0, 11}, {1, 10}, {2, 10}}));
 }
 
-TEST(CalibratedArms, WithoutCalibrationsAreTheArms) {
-  const CalibratedArms calibrations{two_arms(), {}};
-  EXPECT_EQ(calibrations.calibrations(), 1U);
-  EXPECT_EQ(calibrations.of(17).size(), 2U);
+TEST(PlayPlan, WithoutCalibrationsLeavesTheRobotsAsTheyAre) {
+  EXPECT_EQ(PlayPlan{}.calibration_of(17), 0U);
+  EXPECT_EQ(PlayPlan{}.in_match(17, {.robots = team_of(0.09)}).robots[0].model.delay_s, 0.09);
 }
 
 TEST(CalibrationSeeds, OfTheHeadlinesAreNotThoseThatSettingsWereChosenBy) {

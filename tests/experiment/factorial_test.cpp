@@ -19,7 +19,7 @@ ArmTally matches_of(std::int64_t on_target, std::int64_t kicks = 20) {
   return matches;
 }
 
-Study study_of(const std::vector<double>& medians_m = {}, const std::vector<double>& biases_m = {}) {
+Study study_of(const std::set<double>& medians_m = {}, const std::set<double>& biases_m = {}) {
   return factorial_study({}, {}, "released", medians_m, biases_m);
 }
 

@@ -34,7 +34,7 @@ class KickerDriftMatchTest : public NodeTest {
     const experiment::ExperimentWatch nobody{.found = [](std::int64_t) {},
                                              .progress = [](double, double, const std::string&) {},
                                              .stop = [] { return false; }};
-    experiment::run_experiment(plan, 1, log.string(), nobody);
+    experiment::run_experiment(plan, log.string(), nobody);
     return evaluator::drift_in({log}).robots.at(0);
   }
 
