@@ -35,33 +35,29 @@ namespace {
 class ThrowawayKeys {
  public:
   /// For every kind of node. Throws std::system_error where no folder can be made.
-  explicit ThrowawayKeys(std::uint32_t robot_id);
+  explicit ThrowawayKeys(std::uint32_t robot_id) {
+    std::string pattern = (std::filesystem::temp_directory_path() / "trivela_keys_XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::system_error{errno, std::generic_category(), pattern};
+    folder_ = pattern;
+    const security::KeyFolder keys{folder_};
+    const security::Validity today = security::days_from(security::this_second(), 1);
+    keys.init(today);
+    std::vector<std::string> every;
+    for (const security::Rights& rights : security::all_rights()) every.push_back(rights.node);
+    keys.issue(robot_id, every, today);
+  }
   ThrowawayKeys(const ThrowawayKeys&) = delete;
   ThrowawayKeys& operator=(const ThrowawayKeys&) = delete;
-  ~ThrowawayKeys();
+  ~ThrowawayKeys() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
 
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
   std::filesystem::path folder_;
 };
-
-ThrowawayKeys::ThrowawayKeys(std::uint32_t robot_id) {
-  std::string pattern = (std::filesystem::temp_directory_path() / "trivela_keys_XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::system_error{errno, std::generic_category(), pattern};
-  folder_ = pattern;
-  const security::KeyFolder keys{folder_};
-  const security::Validity today = security::days_from(security::this_second(), 1);
-  keys.init(today);
-  std::vector<std::string> every;
-  for (const security::Rights& rights : security::all_rights()) every.push_back(rights.node);
-  keys.issue(robot_id, every, today);
-}
-
-ThrowawayKeys::~ThrowawayKeys() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
 
 /// From now on the nodes that this process starts join the bus with the keys in the folder. An empty name: with keys
 /// made for the purpose, which the result keeps. Throws UsageError naming what is wrong with the folder's keys.

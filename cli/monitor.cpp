@@ -1,6 +1,4 @@
 
-#include <optional>
-#include <string>
 
 #include "cli/launch/signals.hpp"
 #include "cli/options/bus.hpp"

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <memory>
@@ -17,13 +16,12 @@
 namespace trivela::cli {
 namespace {
 
+using Written = std::string (*)(const evaluator::Report& report);
+
 struct ReportArguments {
   std::vector<std::string> logs;
   std::string html;
-  bool json = false;
-  bool csv = false;
-  bool markdown = false;
-  bool latex = false;
+  Written written = evaluator::to_text;
   bool verify = false;
   std::string blocked = "outside";
   std::string out;
@@ -55,14 +53,6 @@ evaluator::Report report_of(const ReportArguments& arguments) {
   return report;
 }
 
-std::string written(const evaluator::Report& report, const ReportArguments& arguments) {
-  if (arguments.json) return evaluator::to_json(report);
-  if (arguments.csv) return evaluator::to_csv(report);
-  if (arguments.markdown) return evaluator::to_markdown(report);
-  if (arguments.latex) return evaluator::to_latex(report);
-  return evaluator::to_text(report);
-}
-
 // What a reader of the text finds in it stands on standard error beside the other forms.
 void warn_of(const evaluator::Report& report) {
   for (const std::string& warning : report.warnings) warn(warning);
@@ -81,10 +71,9 @@ void write_page(const evaluator::Report& report, const ReportArguments& argument
 int run_report(const ReportArguments& arguments) {
   const evaluator::Report report = report_of(arguments);
   if (!arguments.html.empty()) write_page(report, arguments);
-  const std::string text = written(report, arguments);
+  const std::string text = arguments.written(report);
   arguments.out.empty() ? say(text) : write_file(arguments.out, text);
-  const bool plain = !arguments.json && !arguments.csv && !arguments.markdown && !arguments.latex;
-  if (!plain || !arguments.out.empty()) warn_of(report);
+  if (arguments.written != Written{evaluator::to_text} || !arguments.out.empty()) warn_of(report);
   const bool met = warn_of_gates(report.gates);
   return report.data_lost() || !met ? kDoneWithLoss : kDone;
 }
@@ -98,10 +87,14 @@ void add_report(CLI::App& app, int& exit_code) {
       ->type_name("DB")
       ->required();
   auto* const form = verb->add_option_group("form", "One of these in place of text");
-  form->add_flag("--json", arguments->json, "JSON");
-  form->add_flag("--csv", arguments->csv, "CSV, a line for each policy, robot and number of the data quality");
-  form->add_flag("--markdown", arguments->markdown, "Markdown");
-  form->add_flag("--latex", arguments->latex, "LaTeX, for \\input");
+  const auto add_form = [form, given = arguments](const char* flag, const char* help, Written written) {
+    form->add_flag_callback(
+        flag, [given, written] { given->written = written; }, help);
+  };
+  add_form("--json", "JSON", evaluator::to_json);
+  add_form("--csv", "CSV, a line for each policy, robot and number of the data quality", evaluator::to_csv);
+  add_form("--markdown", "Markdown", evaluator::to_markdown);
+  add_form("--latex", "LaTeX, for \\input", evaluator::to_latex);
   form->require_option(0, 1);
   verb->add_option("--out", arguments->out, "Write to this file, not to standard output")->type_name("FILE");
   verb->add_option("--blocked", arguments->blocked,

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/options/number_checks.hpp"

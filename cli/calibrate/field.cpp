@@ -27,25 +27,6 @@ struct LeftForToday : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The drives of a calibration on a field: before each a person is told what to place and asked to go on, and each that
-/// was played to its end is in the record. One that the record has is read from its records.
-class AskedDrives : public calibration::DriveSource {
- public:
-  /// All outlive it. `played_by`: plays what was confirmed.
-  AskedDrives(calibration::DriveSource& played_by, const config::Settings& settings,
-              calibration::CalibrationRecord& kept, Operator& user)
-      : played_by_(played_by), settings_(settings), kept_(kept), user_(user) {}
-
-  /// Throws LeftForToday, and what the source throws; then the records so far are set aside when it is played again.
-  calibration::DriveRecord play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) override;
-
- private:
-  calibration::DriveSource& played_by_;
-  const config::Settings& settings_;
-  calibration::CalibrationRecord& kept_;
-  Operator& user_;
-};
-
 std::string answer_to(Operator& user, const std::string& question, const calibration::CalibrationRecord& kept) {
   const auto said = user.ask(question);
   std::string answer = said ? config::trimmed(*said) : "q";
@@ -82,21 +63,38 @@ double ask_for(const calibration::FieldMeasure& measure, double proposed, calibr
   }
 }
 
-calibration::DriveRecord AskedDrives::play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) {
-  if (kept_.finished(plan.name)) {
-    say(fmt::format("{}: played before, from its records\n", plan.name));
-    calibration::DriveRecord record = drive_files(kept_.folder(), plan);
-    read_back(record);
+/// The drives of a calibration on a field: before each a person is told what to place and asked to go on, and each that
+/// was played to its end is in the record. One that the record has is read from its records.
+class AskedDrives : public calibration::DriveSource {
+ public:
+  /// All outlive it. `played_by`: plays what was confirmed.
+  AskedDrives(calibration::DriveSource& played_by, const config::Settings& settings,
+              calibration::CalibrationRecord& kept, Operator& user)
+      : played_by_(played_by), settings_(settings), kept_(kept), user_(user) {}
+
+  /// Throws LeftForToday, and what the source throws; then the records so far are set aside when it is played again.
+  calibration::DriveRecord play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) override {
+    if (kept_.finished(plan.name)) {
+      say(fmt::format("{}: played before, from its records\n", plan.name));
+      calibration::DriveRecord record = drive_files(kept_.folder(), plan);
+      read_back(record);
+      return record;
+    }
+    if (calibration::set_aside(kept_.folder(), plan.name) > 0)
+      say(fmt::format("{}: what was recorded of an earlier start is kept as {}.partial-*\n", plan.name, plan.name));
+    say(fmt::format("\n{}\n{}", plan.name, calibration::instructions(plan, settings_)));
+    wait_for_enter(user_, kept_);
+    calibration::DriveRecord record = played_by_.play(plan, robot);
+    kept_.finish(plan.name);
     return record;
   }
-  if (calibration::set_aside(kept_.folder(), plan.name) > 0)
-    say(fmt::format("{}: what was recorded of an earlier start is kept as {}.partial-*\n", plan.name, plan.name));
-  say(fmt::format("\n{}\n{}", plan.name, calibration::instructions(plan, settings_)));
-  wait_for_enter(user_, kept_);
-  calibration::DriveRecord record = played_by_.play(plan, robot);
-  kept_.finish(plan.name);
-  return record;
-}
+
+ private:
+  calibration::DriveSource& played_by_;
+  const config::Settings& settings_;
+  calibration::CalibrationRecord& kept_;
+  Operator& user_;
+};
 
 namespace fs = std::filesystem;
 

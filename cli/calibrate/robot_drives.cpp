@@ -165,10 +165,7 @@ config::Settings settings_of_robot_drive(const calibration::DrivePlan& plan, con
   settings.run.robot = robot_file.string();
   settings.run.lockstep = false;
   settings.recorder.log = record.log;
-  settings.kick_decision.policy_by_half = {plan.policy};
-  settings.kick_decision.policy_by_robot.clear();
-  settings.kick_decision.random.clear();
-  settings.kick_decision.random_probabilities.clear();
+  settings.kick_decision.put_in_charge(plan.policy);
   settings.scan_recorder.enabled = plan.laser;
   if (plan.laser) settings.scan_recorder.file = record.scans;
   config::override_settings(settings, plan.settings);

@@ -24,10 +24,7 @@ struct CompareArguments {
   std::vector<std::string> logs;
   std::string csv;
   std::vector<std::string> counts;
-  std::string by;
-  std::string stratify;
-  std::string baseline;
-  std::string design;
+  evaluator::ComparisonQuestion question;  ///< what other flags say of it is added by question_of()
   std::string outcome = "observed";
   std::string blocked = "outside";
   double smallest_effect_points = 100.0 * evaluator::stats::kSmallestEffect;
@@ -41,9 +38,14 @@ std::string csv_name(const CompareArguments& arguments) {
   return arguments.csv == "-" ? "standard input" : arguments.csv;
 }
 
+/// The column of a CSV that has the groups.
+std::string group_column(const CompareArguments& arguments) {
+  return arguments.question.kicks.by.empty() ? "policy" : arguments.question.kicks.by;
+}
+
 evaluator::KickDataset read_csv(const CompareArguments& arguments) {
-  const CsvComparison options{arguments.by.empty() ? "policy" : arguments.by, arguments.stratify,
-                              arguments.design == "paired"};
+  const CsvComparison options{group_column(arguments), arguments.question.kicks.stratify,
+                              arguments.question.design == "paired"};
   if (arguments.csv == "-") return read_kicks(std::cin, csv_name(arguments), options);
   std::ifstream file = open_file(arguments.csv);
   return read_kicks(file, csv_name(arguments), options);
@@ -61,28 +63,25 @@ void check(const CompareArguments& arguments) {
   if (arguments.blocked == "apart" && arguments.logs.empty())
     throw UsageError("--blocked apart needs match logs: counts and tables do not say which kicks were blocked");
   if (arguments.counts.empty()) return;
-  for (const auto& [flag, given] :
-       {std::pair{"--by", &arguments.by}, std::pair{"--stratify", &arguments.stratify},
-        std::pair{"--baseline", &arguments.baseline}, std::pair{"--design", &arguments.design}}) {
+  const evaluator::ComparisonQuestion& asked = arguments.question;
+  for (const auto& [flag, given] : {std::pair{"--by", &asked.kicks.by}, std::pair{"--stratify", &asked.kicks.stratify},
+                                    std::pair{"--baseline", &asked.baseline}, std::pair{"--design", &asked.design}}) {
     if (!given->empty()) throw UsageError(fmt::format("--counts has no rows, so {} says nothing", flag));
   }
 }
 
 evaluator::ComparisonQuestion question_of(const CompareArguments& arguments) {
-  return {.kicks = {.by = arguments.by,
-                    .stratify = arguments.stratify,
-                    .truth = arguments.outcome == "truth",
-                    .blocked_apart = arguments.blocked == "apart"},
-          .baseline = arguments.baseline,
-          .design = arguments.design,
-          .smallest_effect = 0.01 * arguments.smallest_effect_points};
+  evaluator::ComparisonQuestion question = arguments.question;
+  question.kicks.truth = arguments.outcome == "truth";
+  question.kicks.blocked_apart = arguments.blocked == "apart";
+  question.smallest_effect = 0.01 * arguments.smallest_effect_points;
+  return question;
 }
 
 evaluator::PolicyComparison compared_csv(const CompareArguments& arguments) {
   evaluator::KickDataset dataset = read_csv(arguments);
   try {
-    return evaluator::compare_dataset(std::move(dataset), arguments.by.empty() ? "policy" : arguments.by,
-                                      question_of(arguments));
+    return evaluator::compare_dataset(std::move(dataset), group_column(arguments), question_of(arguments));
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", csv_name(arguments), error.what()));  // it knows no file
   }
@@ -140,14 +139,15 @@ void add_compare(CLI::App& app, int& exit_code) {
                    "minutes, distance_m, kicked, opportunity and any others")
       ->type_name("FILE|-");
   verb->add_option("--counts", arguments->counts, "NAME=INSIDE/KICKS twice, the older first: old=34/65 new=100/132");
-  verb->add_option("--by", arguments->by,
+  verb->add_option("--by", arguments->question.kicks.by,
                    "What is compared: policy, table, robot, arm or log; of a CSV any column (arm where a log has "
                    "several, else policy, or log where there is one policy)");
-  verb->add_option("--stratify", arguments->stratify,
+  verb->add_option("--stratify", arguments->question.kicks.stratify,
                    "Compare within situations: distance, or start_distance, robot, half, scenario, table, policy, arm, "
                    "log of a log, any column of a CSV");
-  verb->add_option("--baseline", arguments->baseline, "The group that the others are compared with (the first)");
-  verb->add_option("--design", arguments->design, "How the groups came about, where the data do not say it")
+  verb->add_option("--baseline", arguments->question.baseline,
+                   "The group that the others are compared with (the first)");
+  verb->add_option("--design", arguments->question.design, "How the groups came about, where the data do not say it")
       ->check(CLI::IsMember({"before_after", "alternating", "randomised", "paired"}));
   verb->add_option("--outcome", arguments->outcome, "observed: as the robots saw it; truth: the simulator's (observed)")
       ->check(CLI::IsMember({"observed", "truth"}));

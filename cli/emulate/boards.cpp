@@ -87,15 +87,6 @@ int watch_until_stopped(SignalInbox& signals, Emulator& emulator, int unplug_s, 
   return kDone;
 }
 
-/// The same, with each pulse of the coil. `length_us` is that of a pulse.
-template <class Emulator, class Length>
-int run_until_stopped(SignalInbox& signals, Emulator& emulator, int unplug_s, Length length_us) {
-  return watch_until_stopped(signals, emulator, unplug_s, [&, said = std::size_t{0}](const auto& board) mutable {
-    for (; said < board.pulses().size(); ++said)
-      say(fmt::format("pulse of {:.3f} ms\n", length_us(board.pulses()[said]) / 1000.0));
-  });
-}
-
 /// A fault's name and the number that it sets.
 using FaultNumbers = std::vector<std::pair<std::string, int*>>;
 
@@ -114,37 +105,40 @@ void take_faults(const std::vector<std::string>& faults, const FaultNumbers& num
   }
 }
 
-int emulate_ioboard(const EmulateBoardFlags& flags) {
-  hal::ioboard::EmulatedFaults faults;
+/// A kicker's board, with each pulse of its coil. `numbers`: of the faults, but for its cable's. `armed`: its switch.
+/// `length_us` is that of a pulse.
+template <class Emulator, class Board>
+int emulate_board(const EmulateBoardFlags& flags, const auto& faults, FaultNumbers numbers, bool Board::*armed,
+                  const auto& length_us) {
   int unplug_s = 0;
-  take_faults(flags.faults, {{"lost", &faults.lost_every},
-                             {"garbled", &faults.garbled_every},
-                             {"wrong_sums", &faults.wrong_sums_every},
-                             {"unplug", &unplug_s}});
+  numbers.emplace_back("unplug", &unplug_s);
+  take_faults(flags.faults, numbers);
   SignalInbox signals;  // before the emulator's thread, which must not take them
-  hal::ioboard::Emulator emulator;
-  emulator.with_board([&](hal::ioboard::EmulatedBoard& board) {
-    board.in_play = !flags.disarmed;
+  Emulator emulator;
+  emulator.with_board([&](Board& board) {
+    board.*armed = !flags.disarmed;
     board.faults = faults;
   });
-  return run_until_stopped(signals, emulator, unplug_s, [](const hal::ioboard::EmulatedBoard::Pulse& pulse) {
-    return pulse.units * hal::ioboard::kPulseUnit_us;
+  return watch_until_stopped(signals, emulator, unplug_s, [&, said = std::size_t{0}](const Board& board) mutable {
+    for (; said < board.pulses().size(); ++said)
+      say(fmt::format("pulse of {:.3f} ms\n", length_us(board.pulses()[said]) / 1000.0));
   });
+}
+
+int emulate_ioboard(const EmulateBoardFlags& flags) {
+  hal::ioboard::EmulatedFaults faults;
+  return emulate_board<hal::ioboard::Emulator>(
+      flags, faults,
+      {{"lost", &faults.lost_every}, {"garbled", &faults.garbled_every}, {"wrong_sums", &faults.wrong_sums_every}},
+      &hal::ioboard::EmulatedBoard::in_play,
+      [](const auto& pulse) { return pulse.units * hal::ioboard::kPulseUnit_us; });
 }
 
 int emulate_rekick(const EmulateBoardFlags& flags) {
   hal::rekick::EmulatedFaults faults;
-  int unplug_s = 0;
-  take_faults(flags.faults, {{"lost", &faults.lost_every}, {"foreign", &faults.foreign_every}, {"unplug", &unplug_s}});
-  SignalInbox signals;
-  hal::rekick::Emulator emulator;
-  emulator.with_board([&](hal::rekick::EmulatedBoard& board) {
-    board.supply_on = !flags.disarmed;
-    board.faults = faults;
-  });
-  return run_until_stopped(signals, emulator, unplug_s, [](const hal::rekick::EmulatedBoard::Pulse& pulse) {
-    return static_cast<double>(pulse.pulse_us);
-  });
+  return emulate_board<hal::rekick::Emulator>(
+      flags, faults, {{"lost", &faults.lost_every}, {"foreign", &faults.foreign_every}},
+      &hal::rekick::EmulatedBoard::supply_on, [](const auto& pulse) { return static_cast<double>(pulse.pulse_us); });
 }
 
 /// What an emulated base does wrong: spells of so many seconds, 0: none; a drive's node, 0: none.

@@ -1,10 +1,6 @@
 #include "cli/hardware/device_probes.hpp"
 
-#include <fmt/format.h>
-
 #include <optional>
-#include <type_traits>
-#include <variant>
 
 #include "hal/refbox/refbox_client.hpp"
 #include "nodes/refbox/refbox_node.hpp"
@@ -14,15 +10,6 @@ namespace {
 
 /// A device that never runs dry, such as a recorded one, is left after so many samples of one look.
 constexpr int kMostOfALook = 64;
-
-/// "NAME on PORT", where the backend has one.
-template <class Backend>
-std::string backend_text(const Backend& backend) {
-  if constexpr (requires { backend.port; } && !std::is_same_v<Backend, config::ScipDevice>)
-    return fmt::format("{} on {}", Backend::kName, backend.port);
-  else
-    return config::text_of(backend);
-}
 
 /// One that is not opened: somebody else has it, or nobody wants it.
 class Unopened final : public DeviceProbe {
@@ -198,18 +185,6 @@ std::string Rate::text() {
   since_ = now;
   now_ = 0;
   return fmt::format("{:.0f}/s", rate_hz);
-}
-
-std::string device_text(const config::WheelsDevice& device) {
-  return std::visit([](const auto& backend) { return backend_text(backend); }, device);
-}
-
-std::string device_text(const config::KickerDevice& device) {
-  return std::visit([](const auto& backend) { return backend_text(backend); }, device);
-}
-
-std::string device_text(const config::GyroDevice& device) {
-  return std::visit([](const auto& backend) { return backend_text(backend); }, device);
 }
 
 std::string kicker_text(const hal::KickerSample& sample) {

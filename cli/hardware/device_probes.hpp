@@ -1,8 +1,11 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <memory>
 #include <string>
+#include <variant>
 
 #include "config/settings.hpp"
 #include "hal/open.hpp"
@@ -50,9 +53,17 @@ class Rate {
 };
 
 /// "ioboard on /dev/ttyUSB0", "sim".
-std::string device_text(const config::WheelsDevice& device);
-std::string device_text(const config::KickerDevice& device);
-std::string device_text(const config::GyroDevice& device);
+template <class... Backends>
+std::string device_text(const std::variant<Backends...>& device) {
+  return std::visit(
+      []<class Backend>(const Backend& backend) {
+        if constexpr (requires { backend.port; })
+          return fmt::format("{} on {}", Backend::kName, backend.port);
+        else
+          return config::text_of(backend);
+      },
+      device);
+}
 
 /// "0.42 (modelled), armed".
 std::string kicker_text(const hal::KickerSample& sample);

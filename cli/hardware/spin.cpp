@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
-#include "cli/hardware/device_probes.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "kicking/model/omni_kinematics.hpp"
@@ -18,22 +16,6 @@ using SpinClock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kCommandPeriod{20};  // a base stops that hears nothing for some tenths of a second
 constexpr std::chrono::milliseconds kSilence{500};       // of a base that has been lost
 
-std::int64_t spin_now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(SpinClock::now().time_since_epoch()).count();
-}
-
-/// Leaves the base at rest, by whichever way it is left.
-class AtRestAfterwards {
- public:
-  explicit AtRestAfterwards(hal::Wheels& wheels) : wheels_(wheels) {}
-  AtRestAfterwards(const AtRestAfterwards&) = delete;
-  AtRestAfterwards& operator=(const AtRestAfterwards&) = delete;
-  ~AtRestAfterwards() { wheels_.drive({}, spin_now_ns()); }
-
- private:
-  hal::Wheels& wheels_;
-};
-
 /// What the wheels said before is no answer to what they do now.
 std::runtime_error lost(const Spin& spin, const hal::Wheels& wheels) {
   const std::string status = wheels.status();
@@ -44,8 +26,8 @@ std::runtime_error lost(const Spin& spin, const hal::Wheels& wheels) {
 
 void turn(const Spin& spin, hal::Wheels& wheels, const kicking::OmniKinematics& kinematics) {
   if (const auto twist = kinematics.one_wheel(spin.wheel, spin.radps)) {
-    wheels.drive(*twist, spin_now_ns());
-  } else if (!wheels.drive_wheel(spin.wheel, spin.radps, spin_now_ns())) {
+    wheels.drive(*twist, steady_ns());
+  } else if (!wheels.drive_wheel(spin.wheel, spin.radps, steady_ns())) {
     throw std::runtime_error{fmt::format(
         "wheel {} cannot be turned alone: this device takes velocities of the whole base, and a base of {} wheels has "
         "none at which one alone turns",
@@ -100,7 +82,7 @@ int spin_wheel(const Spin& spin, hal::Wheels& wheels, const config::WheelBase& b
   const kicking::OmniKinematics kinematics{base};
   Mean mean;
   std::optional<hal::WheelSample> newest;
-  const AtRestAfterwards at_rest{wheels};
+  const Afterwards at_rest{[&] { wheels.drive({}, steady_ns()); }};
   const auto began = SpinClock::now();
   const auto lasts = std::chrono::duration<double>(spin.seconds);
   auto received = began;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +16,18 @@
 #include "hal/wheels.hpp"
 
 namespace trivela::cli {
+
+/// Calls `last` when it goes, by whichever way that is.
+template <class Last>
+struct Afterwards {
+  Last last;
+  ~Afterwards() { last(); }
+};
+
+/// This machine's steady clock.
+inline std::int64_t steady_ns() {
+  return std::chrono::nanoseconds{std::chrono::steady_clock::now().time_since_epoch()}.count();
+}
 
 using DeviceProbes = std::vector<std::unique_ptr<DeviceProbe>>;
 

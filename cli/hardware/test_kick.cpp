@@ -3,11 +3,8 @@
 #include <fmt/core.h>
 #include <poll.h>
 
-#include <chrono>
-#include <optional>
 #include <stdexcept>
 
-#include "cli/hardware/device_probes.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "kicking/geometry/time.hpp"
@@ -21,25 +18,6 @@ constexpr std::int64_t kTestKick = 1;
 constexpr std::chrono::seconds kKickerTimeout{3};
 constexpr std::chrono::milliseconds kSampleWait{50};
 constexpr std::chrono::milliseconds kOutcomeTimeout{500};  // until the board has said what became of the shot
-
-std::int64_t kick_now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(KickClock::now().time_since_epoch()).count();
-}
-
-/// Whatever comes, nothing is energised afterwards.
-class SafeAfterwards {
- public:
-  explicit SafeAfterwards(hal::Kicker& kicker) : kicker_(kicker) {}
-  SafeAfterwards(const SafeAfterwards&) = delete;
-  SafeAfterwards& operator=(const SafeAfterwards&) = delete;
-  ~SafeAfterwards() {
-    kicker_.charge(hal::ChargeCommand::kDischarge);  // where the device can
-    kicker_.make_safe();
-  }
-
- private:
-  hal::Kicker& kicker_;
-};
 
 /// Takes what the kicker says until `done` or the timeout is over. False: somebody asked to stop.
 bool listen(hal::Kicker& kicker, robot::OrderGate& gate, std::optional<hal::KickerSample>& newest,
@@ -66,7 +44,7 @@ msg::KickOrder order_of(double power, double validity_s, std::uint8_t robot_id) 
   order.robot_id = robot_id;
   order.seq = 1;
   order.kick_id = kTestKick;
-  order.t_ns = order.fire_t_ns = kick_now_ns();
+  order.t_ns = order.fire_t_ns = steady_ns();
   order.valid_until_t_ns = order.t_ns + kicking::nanoseconds(validity_s);
   order.power = power;
   order.possession = true;  // the person has said that the ball lies there
@@ -102,7 +80,10 @@ std::string refused_at_once(const hal::KickerSample& sample, const config::Kicke
 
 int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const config::Robot& robot, Operator& user,
                    SignalInbox& signals) {
-  const SafeAfterwards safe{kicker};
+  const Afterwards nothing_energised{[&] {
+    kicker.charge(hal::ChargeCommand::kDischarge);  // where the device can
+    kicker.make_safe();
+  }};
   const kicking::Range powers{robot.model.table.front().power, robot.model.table.back().power};
   robot::OrderGate gate{settings.kicker_driver, {powers}, settings.run.cycle_s};
   gate.referee(robot::RefereePermission::kPlay);
@@ -126,11 +107,11 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
   kicker.charge(hal::ChargeCommand::kCharge);
   newest.reset();  // what waited while the person thought is too old
   if (!listen(kicker, gate, newest, KickClock::now() + std::chrono::duration_cast<KickClock::duration>(timeout),
-              signals, [&] { return newest && healthy(*newest) && (!newest->armed || gate.ready(kick_now_ns())); }))
+              signals, [&] { return newest && healthy(*newest) && (!newest->armed || gate.ready(steady_ns())); }))
     return not_fired("stopped");
   const msg::KickOrder order =
       order_of(powers.min, settings.kick_decision.order_validity_s, static_cast<std::uint8_t>(settings.run.robot_id));
-  const msg::Refusal refusal = gate.judge(order, kick_now_ns(), robot::OrderBy::kOwnDecision);
+  const msg::Refusal refusal = gate.judge(order, steady_ns(), robot::OrderBy::kOwnDecision);
   if (refusal != msg::REFUSAL_NONE)
     return not_fired(fmt::format("refused, {}; {}", bus::label(refusal), newest ? kicker_text(*newest) : "no sample"));
   return carry_out(kicker, gate, order, signals);

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <set>
 
-#include "cli/launch/terminal.hpp"
 #include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "evaluator/imports/play_statistics.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "kicking/text/printable.hpp"
 

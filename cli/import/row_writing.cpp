@@ -3,19 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <stdexcept>
 
 #include "cli/import/refbox.hpp"
 #include "config/text/installation.hpp"
 #include "evaluator/imports/play_statistics.hpp"
 #include "idl/messages.hpp"
 #include "log/schema/digest.hpp"
-#include "robot/recording/message_row.hpp"
 #include "robot/recording/session_text.hpp"
 #include "robot/referee/match_state.hpp"
 

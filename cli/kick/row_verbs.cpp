@@ -10,15 +10,7 @@ namespace trivela::cli {
 namespace {
 
 const char* name(kicking::PowerRange range) {
-  switch (range) {
-    case kicking::PowerRange::kBelow:
-      return "below";
-    case kicking::PowerRange::kIn:
-      return "in";
-    case kicking::PowerRange::kAbove:
-      break;
-  }
-  return "above";
+  return range == kicking::PowerRange::kBelow ? "below" : range == kicking::PowerRange::kIn ? "in" : "above";
 }
 
 Value drag_speed(const Row& row, const kicking::FlightPoint& point, double angle_rad,

@@ -1,20 +1,14 @@
 #include "cli/launch/child_process.hpp"
 
 #include <fcntl.h>
-#include <fmt/core.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 
 namespace trivela::cli {
 namespace {
@@ -29,6 +23,7 @@ constexpr std::chrono::seconds kGrace{5};
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (output == ChildProcess::kNobody) output = open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (output >= 0) dup2(output, STDOUT_FILENO);
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));

@@ -23,10 +23,13 @@ namespace trivela::cli {
 /// reaches its launcher alone, and the kernel ends it if the launcher is killed.
 class ChildProcess {
  public:
-  /// Runs `program` with `arguments`. `output`: file descriptor for its standard output, or -1 to share ours.
+  static constexpr int kOurs = -1;    ///< its standard output is ours
+  static constexpr int kNobody = -2;  ///< nobody reads it
+
+  /// Runs `program` with `arguments`. `output`: file descriptor for its standard output, or one of these.
   /// Throws std::runtime_error naming the program that cannot be started.
   ChildProcess(std::string name, const std::filesystem::path& program, const std::vector<std::string>& arguments,
-               int output = -1);
+               int output = kOurs);
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
@@ -59,7 +62,8 @@ class ChildProcess {
 
 /// Starts the node, named without "trivela-", with this configuration file: the program beside this one, else the one
 /// on the PATH. `output`: as of ChildProcess.
-ChildProcess start_node(const std::string& node, const std::filesystem::path& config_file, int output = -1);
+ChildProcess start_node(const std::string& node, const std::filesystem::path& config_file,
+                        int output = ChildProcess::kOurs);
 
 /// The end of a node that should run, as a sentence; empty if all do.
 std::string dead_node(std::deque<ChildProcess>& nodes);

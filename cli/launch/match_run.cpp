@@ -5,7 +5,6 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -61,35 +60,6 @@ namespace {
 
 constexpr std::chrono::seconds kFeederTimeout{10};
 
-/// Where nobody reads.
-class Nowhere {
- public:
-  Nowhere() : descriptor_(open("/dev/null", O_WRONLY | O_CLOEXEC)) {
-    if (descriptor_ < 0) throw std::runtime_error{fmt::format("cannot open /dev/null: {}", std::strerror(errno))};
-  }
-  Nowhere(const Nowhere&) = delete;
-  Nowhere& operator=(const Nowhere&) = delete;
-  ~Nowhere() { close(descriptor_); }
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
-/// Starts processes with one configuration file.
-class Starter {
- public:
-  explicit Starter(bool quiet) : quiet_(quiet) {}
-
-  ChildProcess start(const std::string& node, const std::filesystem::path& config_file) const {
-    return start_node(node, config_file, quiet_ ? nowhere_.descriptor() : -1);
-  }
-
- private:
-  bool quiet_;
-  Nowhere nowhere_;
-};
-
 /// Waits for news of the feeder and of signals, and takes the feeder's.
 struct Watch {
   ProgressPipe& progress;
@@ -126,8 +96,8 @@ MatchResult run_match(const std::string& feeder, const std::filesystem::path& co
   ProgressPipe progress;
   std::deque<ChildProcess> children;
   const auto started = WallClock::now();
-  const Starter starter{quiet};
-  for (const std::string& node : nodes) children.push_back(starter.start(node, config_file));
+  for (const std::string& node : nodes)
+    children.push_back(start_node(node, config_file, quiet ? ChildProcess::kNobody : ChildProcess::kOurs));
   children.push_back(start_node(feeder, config_file, progress.write_end()));
   progress.close_write_end();
   std::string trouble;
@@ -152,7 +122,6 @@ MatchResult run_emulated_match(const std::filesystem::path& world_config, const 
   ProgressPipe progress;
   std::deque<ChildProcess> children;
   const auto started = WallClock::now();
-  const Starter starter{false};
   children.push_back(start_node("simulator", world_config, progress.write_end()));
   progress.close_write_end();
   std::string trouble;
@@ -163,8 +132,8 @@ MatchResult run_emulated_match(const std::filesystem::path& world_config, const 
   }
   if (progress.begun() && trouble.empty()) {
     const std::filesystem::path config_file = nodes_config(progress.settings());
-    children.push_front(starter.start(nodes.front(), config_file));  // the recorder, before the simulator
-    for (std::size_t i = 1; i < nodes.size(); ++i) children.push_back(starter.start(nodes[i], config_file));
+    children.push_front(start_node(nodes.front(), config_file));  // the recorder, before the simulator
+    for (std::size_t i = 1; i < nodes.size(); ++i) children.push_back(start_node(nodes[i], config_file));
   }
   while (trouble.empty() && !progress.whole()) {
     watch.next();

@@ -64,7 +64,8 @@ class ProgressBar {
     if (!terminal_) return;
     const auto now = std::chrono::steady_clock::now();
     if (!started_) started_ = now;
-    if (drawn_ && done < total && now - *drawn_ < std::chrono::milliseconds{100}) return;
+    const bool over = total > 0.0 && done >= total;
+    if (drawn_ && !over && now - *drawn_ < std::chrono::milliseconds{100}) return;
     const double elapsed_s = std::chrono::duration<double>{now - *started_}.count();
     const std::size_t columns = columns_of(STDERR_FILENO) - 1;  // in the last one some terminals begin a line
     fmt::print(stderr, "\r{}\x1b[K", progress_line(done, total, elapsed_s, unit, what, columns));

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <poll.h>
 #include <termios.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdio>

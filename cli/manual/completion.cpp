@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include <functional>
-#include <string>
 
 namespace trivela::cli {
 namespace {

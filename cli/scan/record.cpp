@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "calibration/scanner_session.hpp"
+#include "cli/launch/progress_bar.hpp"
 #include "cli/launch/signals.hpp"
-#include "cli/launch/terminal.hpp"
 #include "cli/options/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
@@ -19,37 +19,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kLook{200};  // between two looks at the signals and the terminal
 
-/// One line on standard error that is drawn over; silent unless that is a terminal that can be.
-class StatusLine {
- public:
-  ~StatusLine() {
-    if (drawn_) std::fputs("\n", stderr);  // does not throw where the terminal is gone
-  }
-  void show(const std::string& text) {
-    if (!terminal_ || Clock::now() < next_) return;
-    fmt::print(stderr, "\r{}\x1b[K", cut_to("  " + text, columns_of(STDERR_FILENO) - 1));
-    std::fflush(stderr);
-    drawn_ = true;
-    next_ = Clock::now() + kLook;
-  }
-
- private:
-  bool terminal_ = can_be_drawn_over(STDERR_FILENO);
-  bool drawn_ = false;
-  Clock::time_point next_{};
-};
-
 }  // namespace
 
 int record_scans(const std::filesystem::path& out, const std::string& device, const MountFlags& mount,
                  std::optional<double> seconds, std::optional<double> power) {
   calibration::refuse_existing(out);
   SignalInbox signals;
-  StatusLine line;
+  ProgressBar line;
   const auto finder = hal::open_range_finder(device);
   if (isatty(STDERR_FILENO) == 0) fmt::print(stderr, "waiting for {}; Ctrl-C ends\n", device);
   while (!finder->connected(kLook)) {
-    line.show("waiting for " + device + ": " + finder->status());
+    line.show(0.0, 0.0, "waiting for " + device + ": " + finder->status());
     if (signals.stop_requested()) throw std::runtime_error{fmt::format("nothing was recorded: {}", finder->status())};
   }
   const log::ScanSession session = calibration::scanner_session(*finder, mount.mount(), device);
@@ -68,7 +48,8 @@ int record_scans(const std::filesystem::path& out, const std::string& device, co
       if (seconds && kicking::seconds(*first_t_ns, scan->t_ns) >= *seconds) break;
       scan->range_mm.size() == session.geometry.beams&& writer.push(*scan) ? ++scans : ++refused;
     }
-    line.show(fmt::format("{:.0f} s, {} scans, {} lost; {}", passed.count(), scans, finder->counters().lost_scans,
+    line.show(0.0, 0.0,
+              fmt::format("{:.0f} s, {} scans, {} lost; {}", passed.count(), scans, finder->counters().lost_scans,
                           finder->status()));
   }
   writer.finalise();

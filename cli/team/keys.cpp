@@ -51,42 +51,27 @@ void say_keys(const security::KeyFolder& keys, const security::Validity& validit
                   fmt::gmtime(validity.to)));
 }
 
-std::vector<std::string> asked_nodes(const KeyFlags& flags, std::uint32_t robot_id) {
-  return flags.nodes.empty() ? security::usual_nodes(robot_id) : flags.nodes;
-}
-
 void check_key_nodes(const KeyFlags& flags) try {
   for (const std::string& node : flags.nodes) security::rights_of(node);
 } catch (const std::invalid_argument& error) {
   throw UsageError{fmt::format("--node: {}", error.what())};
 }
 
-int init_keys(const KeyFlags& flags) {
+/// Issues keys of the robots that are named, after `first`.
+int make_keys(const KeyFlags& flags, void (security::KeyFolder::*first)(const security::Validity&) const) {
   check_key_nodes(flags);
   const auto validity = asked_validity(flags);
   const security::KeyFolder keys{flags.folder};
-  keys.init(validity);
-  for (const std::uint32_t robot_id : flags.robots) keys.issue(robot_id, asked_nodes(flags, robot_id), validity);
+  if (first != nullptr) (keys.*first)(validity);
+  for (const std::uint32_t robot_id : flags.robots)
+    keys.issue(robot_id, flags.nodes.empty() ? security::usual_nodes(robot_id) : flags.nodes, validity);
   say_keys(keys, validity);
   return kDone;
 }
 
-int issue_keys(const KeyFlags& flags) {
-  check_key_nodes(flags);
-  const auto validity = asked_validity(flags);
-  const security::KeyFolder keys{flags.folder};
-  for (const std::uint32_t robot_id : flags.robots) keys.issue(robot_id, asked_nodes(flags, robot_id), validity);
-  say_keys(keys, validity);
-  return kDone;
-}
-
-int renew_keys(const KeyFlags& flags) {
-  const auto validity = asked_validity(flags);
-  const security::KeyFolder keys{flags.folder};
-  keys.renew(validity);
-  say_keys(keys, validity);
-  return kDone;
-}
+int init_keys(const KeyFlags& flags) { return make_keys(flags, &security::KeyFolder::init); }
+int issue_keys(const KeyFlags& flags) { return make_keys(flags, nullptr); }
+int renew_keys(const KeyFlags& flags) { return make_keys(flags, &security::KeyFolder::renew); }
 
 int revoke_keys(const KeyFlags& flags) {
   check_key_nodes(flags);
