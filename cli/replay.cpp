@@ -150,10 +150,9 @@ std::string share(std::int64_t part, std::int64_t whole) {
 }
 
 /// How far the log's own setup gives again what was recorded: how far to believe the rest.
-std::vector<std::string> check_lines(const experiment::RobotReplay& replay, bool lockstep) {
-  const experiment::ReplayCheck& check = replay.check;
+std::vector<std::string> check_lines(int robot_id, const experiment::ReplayCheck& check, bool lockstep) {
   std::vector<std::string> lines{
-      fmt::format("robot {}: {} cycles", replay.robot_id, check.cycles),
+      fmt::format("robot {}: {} cycles", robot_id, check.cycles),
       fmt::format("with the log's own settings and robot the same decisions: {}, to the last bit {}",
                   share(check.decisions_same, check.decisions), check.decisions_exact),
       fmt::format("and the same beliefs to the last bit: {}", share(check.beliefs_same, check.beliefs))};
@@ -238,10 +237,11 @@ Replayed decide_again(const Reader& reader, const RecordedSession& session, cons
                                    "s", "decided again");
       return !replayed.stopped;
     };
-    const auto result =
+    const auto check =
         experiment::replay_robot({reader, session.session_id, plans[i].robot_id, session.simulated_clock},
                                  plans[i].recorded, plans[i].other, log, queue_capacity, progress);
-    for (std::string& line : check_lines(result, session.simulated_clock)) replayed.lines.push_back(std::move(line));
+    for (std::string& line : check_lines(plans[i].robot_id, check, session.simulated_clock))
+      replayed.lines.push_back(std::move(line));
   }
   return replayed;
 }

@@ -55,13 +55,8 @@ class ReplayRows {
                                                   .omega_radps = decided.drive.omega_radps,
                                                   .lever_kind = decided.record.lever_kind}));
     if (world.possession) write_decision(decided.record);
-    if (!decided.order) return;
-    ++orders_made_;
-    push(orders_, robot::row_of(*decided.order));
+    if (decided.order) push(orders_, robot::row_of(*decided.order));
   }
-
-  std::int64_t decisions() const { return decisions_made_; }
-  std::int64_t orders() const { return orders_made_; }
 
  private:
   void push(log::TableId table, std::vector<log::Value> row) {
@@ -70,7 +65,6 @@ class ReplayRows {
   }
 
   void write_decision(const msg::KickDecision& decision) {
-    ++decisions_made_;
     push(decisions_, robot::row_of(decision));
     if (decision.reason != msg::REASON_NOT_PLAYING && assigned_.emplace(decision.half, decision.possession_id).second) {
       robot::RowCells row;
@@ -89,7 +83,6 @@ class ReplayRows {
   std::size_t most_waiting_;
   log::TableId referee_, odometry_, worlds_, drives_, decisions_, shadows_, orders_, assignments_;
   std::uint64_t cycles_ = 0;
-  std::int64_t decisions_made_ = 0, orders_made_ = 0;
   std::set<std::tuple<std::uint8_t, std::uint32_t>> assigned_;  // half and possession
 };
 
@@ -157,10 +150,9 @@ class OtherRobot {
 
 }  // namespace
 
-RobotReplay replay_robot(const RecordedRobot& robot, const RobotSetup& recorded, const std::optional<RobotSetup>& other,
+ReplayCheck replay_robot(const RecordedRobot& robot, const RobotSetup& recorded, const std::optional<RobotSetup>& other,
                          log::Writer& log, std::size_t queue_capacity, const ReplayProgress& progress) {
   refuse_oracle((other ? *other : recorded).settings.kick_decision, robot.robot_id);
-  RobotReplay replay{.robot_id = robot.robot_id, .check = {}};
   RecordedCycles cycles{robot, recorded.settings, recorded.robot, kick_session(robot)};
   std::optional<OtherRobot> changed;
   if (other) changed.emplace(*other, recorded, robot);
@@ -185,10 +177,7 @@ RobotReplay replay_robot(const RecordedRobot& robot, const RobotSetup& recorded,
     throw std::runtime_error{
         fmt::format("robot {}: none of its {} wheel samples goes with the robot's file: it has {} wheels",
                     robot.robot_id, of_another_base, other->robot.base.wheel_angles_rad.size())};
-  replay.check = cycles.check();
-  replay.decisions = rows.decisions();
-  replay.orders = rows.orders();
-  return replay;
+  return cycles.check();
 }
 
 }  // namespace trivela::experiment
