@@ -58,8 +58,8 @@ nlohmann::ordered_json json_of(const std::vector<network::Finding>& findings) {
   return all;
 }
 
-void say_json(const std::vector<network::Finding>& findings) {
-  say(json_of(findings).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+void say_json(const nlohmann::ordered_json& json) {
+  say(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 /// The team's machines are peers, its interface and the domain between the machines what is looked at.
@@ -102,7 +102,7 @@ int examine_logs(const DoctorFlags& flags) {
   };
   for (const std::string& log : flags.logs) tell(log, evaluator::examine_log(log));
   if (flags.logs.size() > 1) tell("all of them", evaluator::compare_logs({flags.logs.begin(), flags.logs.end()}));
-  if (flags.json) say(all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  if (flags.json) say_json(all);
   return worst == evaluator::Health::kBad ? kFailed : worst == evaluator::Health::kDoubtful ? kDoneWithLoss : kDone;
 }
 
@@ -116,7 +116,7 @@ int examine(const DoctorFlags& flags) {
                         "the team plays without: any program on its networks can stop "
                         "the robots, order kicks and fire coils",
                         "trivela keys issue makes them, team.keys names their folder (docs/security.md)"});
-  flags.json ? say_json(findings) : say_findings(findings);
+  flags.json ? say_json(json_of(findings)) : say_findings(findings);
   const bool bad = std::ranges::any_of(
       findings, [](const network::Finding& finding) { return finding.verdict == network::Verdict::kBad; });
   return bad ? kFailed : kDone;

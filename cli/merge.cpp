@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,14 +25,16 @@ struct MergeArguments {
   std::optional<int> reference_robot;
 };
 
+/// Tells how many rows are copied, by a line that ends with the last copy of the function.
+std::function<bool(std::int64_t, std::int64_t)> copied() {
+  return [bar = std::make_shared<StoppableBar>()](std::int64_t read, std::int64_t all) {
+    return bar->show(static_cast<double>(read), static_cast<double>(all), "rows", "copied");
+  };
+}
+
 int merge_shards(const MergeArguments& arguments, const std::vector<std::filesystem::path>& shards) {
   if (arguments.reference_robot) throw UsageError{"--reference: shards of an experiment have one clock"};
-  const auto merged = [&] {
-    StoppableBar bar;
-    return log::merge_shards(shards, arguments.out, [&](std::int64_t read, std::int64_t all) {
-      return bar.show(static_cast<double>(read), static_cast<double>(all), "rows", "copied");
-    });
-  }();
+  const auto merged = log::merge_shards(shards, arguments.out, copied());
   say(fmt::format("{}: {} sessions of {} matches, of {} shards\nmissing: nothing\n", arguments.out, merged.sessions,
                   merged.matches, merged.shards));
   return kDone;
@@ -53,15 +57,8 @@ int run_merge(const MergeArguments& arguments) try {
   const std::vector<std::filesystem::path> logs{arguments.logs.begin(), arguments.logs.end()};
   if (log::any_is_shard(logs)) return merge_shards(arguments, logs);
   require_match_logs(logs);
-  log::MergeOptions options;
-  options.reference_robot = arguments.reference_robot;
-  const log::Merged merged = [&] {
-    StoppableBar bar;
-    options.progress = [&](std::int64_t read, std::int64_t all) {
-      return bar.show(static_cast<double>(read), static_cast<double>(all), "rows", "copied");
-    };
-    return log::merge(logs, arguments.out, options);
-  }();
+  const log::Merged merged =
+      log::merge(logs, arguments.out, {.reference_robot = arguments.reference_robot, .progress = copied()});
   if (arguments.reference_robot && !merged.alignment.reference_robot)
     warn(fmt::format("no clock was measured against that of robot {}", *arguments.reference_robot));
   const evaluator::MergeReport report = evaluator::report_merge(merged, log::Reader(arguments.out, log::Check::kQuick));

@@ -90,11 +90,6 @@ Ran run_program(const std::vector<std::string>& words) {
   return ran;
 }
 
-/// Runs a shell's command on a host by `ssh` without asking anybody for a password.
-Ran run_on(const std::string& host, const std::string& command, const std::string& ssh) {
-  return run_program({ssh, "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", host, command});
-}
-
 /// rsync of files from a host into a folder: what is there already is compared by size and time, what came in part goes
 /// on, nothing is changed there.
 Ran fetch_files(const std::string& host, const std::vector<std::string>& paths, const std::filesystem::path& folder,
@@ -131,8 +126,6 @@ std::string listing_command(const std::string& path) {
 
 /// A host without its user.
 std::string machine_of(const std::string& host) { return host.substr(host.find('@') + 1); }
-
-bool is_log(const std::string& path) { return path.ends_with(".db"); }
 
 /// What is wrong with a fetched log; empty: nothing.
 std::string wrong_with(const fs::path& log, const RemoteFile& there) {
@@ -203,7 +196,8 @@ void require_program(const std::string& name, const std::string& how) {
 
 Fetched fetch_logs(const LogHost& host, const fs::path& to, const std::string& ssh) {
   Fetched fetched;
-  const Ran listed = run_on(host.host, listing_command(host.path), ssh);
+  const Ran listed = run_program(  // without asking anybody for a password
+      {ssh, "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", host.host, listing_command(host.path)});
   if (!listed.succeeded) {
     fetched.missing.push_back(fmt::format("its logs in {}: {}", host.path, listed.said));
     return fetched;
@@ -213,7 +207,7 @@ Fetched fetch_logs(const LogHost& host, const fs::path& to, const std::string& s
   std::error_code error;
   fs::create_directories(folder, error);
   for (const auto& [path, file] : files) {
-    if (!is_log(path) || file.size_B == 0) continue;
+    if (!path.ends_with(".db") || file.size_B == 0) continue;
     ++fetched.logs;
     fetch_log(host, path, files, folder, ssh, fetched);
   }

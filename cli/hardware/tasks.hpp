@@ -23,6 +23,8 @@ struct Afterwards {
   Last last;
   ~Afterwards() { last(); }
 };
+template <class Last>
+Afterwards(Last) -> Afterwards<Last>;
 
 /// This machine's steady clock.
 inline std::int64_t steady_ns() {
