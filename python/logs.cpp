@@ -7,7 +7,7 @@
 #include "evaluator/counting/log_opportunities.hpp"
 #include "evaluator/counting/metrics.hpp"
 #include "log/read/reader.hpp"
-#include "log/read/stream_table.hpp"
+#include "log/schema/stream_table.hpp"
 #include "python/arrays.hpp"
 #include "python/columns.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "log/read/reader.hpp"
-#include "log/read/stream_table.hpp"
+#include "log/schema/stream_table.hpp"
 
 namespace trivela::evaluator {
 
@@ -88,11 +88,13 @@ ExportedRows export_csv(const log::Reader& reader, const ExportPlan& plan, const
 inline constexpr std::size_t kMostSessionsOfMcap = 64;
 
 /// Writes the log as MCAP in the order of time, by UTC as merging found it out: each row as a message of its own type
-/// (evaluator/mcap/messages.hpp) on /robot_N/STREAM, or /log/STREAM where it is no robot's, beside it the scene
-/// (evaluator/export/match_scene.hpp) and each session's configuration as metadata. Rows without an instant stand at
-/// their session's begin. Where two sessions have rows of one robot at one time, topics begin with /session_UUID. The
-/// same log and `library` (who writes) make the same bytes. Throws as export_csv(), BadExport
-/// where there are more sessions than kMostSessionsOfMcap.
+/// (evaluator/mcap/messages.hpp) on /robot_N/STREAM, or /log/STREAM where it is no robot's, and each session's
+/// configuration as metadata. Rows without an instant stand at their session's begin. Where two sessions have rows of
+/// one robot at one time, topics begin with /session_UUID. The same log and `library` (who writes) make the same bytes.
+/// Beside the rows is the scene for a 3D view: standard messages of ROS in the frame "field" (F: x to the right, y to
+/// the opponents' goal). A robot's frame is that of REP 103, x forward, y to the left: its yaw is the heading and a
+/// quarter turn. Topics of a robot: `pose`, `ball`, `alignment` (both segments), `crossings`; `tf` and `field` of all.
+/// Throws as export_csv(), BadExport where there are more sessions than kMostSessionsOfMcap.
 ExportedRows export_mcap(const log::Reader& reader, const ExportPlan& plan, const std::filesystem::path& file,
                          const std::string& library, const ExportProgress& progress = {});
 

@@ -5,18 +5,126 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 
-#include "evaluator/export/match_scene.hpp"
 #include "evaluator/mcap/mcap_writer.hpp"
 #include "evaluator/mcap/messages.hpp"
+#include "evaluator/sessions/session_facts.hpp"
+#include "evaluator/timeline/decided_segments.hpp"
+#include "kicking/constants.hpp"
 #include "log/schema/queries.hpp"
 
 namespace trivela::evaluator {
 namespace {
 
 using log::Value;
+using mcap::Colour;
+using mcap::Header;
+using mcap::Marker;
+
+constexpr std::string_view kMarkers = "visualization_msgs/MarkerArray";
+constexpr Colour kWhite{1, 1, 1, 1}, kOrange{1, 0.5F, 0, 1}, kBlue{0.2F, 0.5F, 1, 1}, kGreen{0.2F, 0.8F, 0.3F, 1},
+    kGrey{0.6F, 0.6F, 0.6F, 0.8F};
+
+Header in_field(std::int64_t t_ns) { return {t_ns, "field"}; }
+
+Marker ball_at(const std::string& what, const Colour& colour, const std::optional<Eigen::Vector3d>& place) {
+  Marker marker{what, Marker::kSphere, place.has_value(), colour, 2.0 * kicking::Ball{}.radius_m, {}};
+  if (place) marker.places = {*place};
+  return marker;
+}
+
+/// A crossing of the goal line; none where it is not known.
+Marker crossing(const std::string& what, const Colour& colour, std::optional<double> x_m, double y_m,
+                std::optional<double> z_m) {
+  std::optional<Eigen::Vector3d> place;
+  if (x_m && z_m) place.emplace(*x_m, y_m, *z_m);
+  return ball_at(what, colour, place);
+}
+
+std::vector<Marker> segments(const log::NamedCells& cells) {
+  const DecidedSegments s =
+      decided_segments({{cells.get<double>("x_m"), cells.get<double>("y_m"), cells.get<double>("heading_rad")},
+                        cells.get<double>("alpha_rad"),
+                        {cells.get<double>("target_x_m"), cells.get<double>("target_y_m")},
+                        cells.get<double>("distance_m"),
+                        cells.get<bool>("aligned"),
+                        cells.find<double>("offset_right_m"),
+                        cells.get<double>("left_m"),
+                        cells.get<double>("right_m")});
+  const auto up = [](const Eigen::Vector2d& p) { return Eigen::Vector3d(p.x(), p.y(), 0.02); };
+  const Colour& s1 = s.aligned ? kGreen : kOrange;
+  return {Marker{"s1", Marker::kLineList, true, s1, 0.03, {up(s.s1_from_m), up(s.s1_to_m)}},
+          Marker{"s2", Marker::kLineList, true, kBlue, 0.03, {up(s.s2_left_m), up(s.s2_right_m)}}};
+}
+
+/// Puts a message that lies in a Cdr on a topic: its name, its standard type.
+using PutMessage = std::function<void(const std::string& topic, std::string_view type)>;
+
+/// The scene that export_mcap() writes beside the rows.
+class MatchScene {
+ public:
+  explicit MatchScene(mcap::Cdr& cdr) : cdr_(cdr) {}
+
+  /// Lines of the field and the goal, on `topic`.
+  void put_field(const LoggedPitch& pitch, std::int64_t t_ns, const std::string& topic, const PutMessage& put) {
+    const double side = pitch.side_line_x_m, line = pitch.goal.y_m;
+    const double post = pitch.goal.half_width_m + 0.5 * pitch.goal.post_width_m;
+    const double bar = pitch.goal.height_m + 0.5 * pitch.goal.post_width_m;
+    Marker lines{"lines", Marker::kLineList, true, kWhite, 0.125, {}};
+    for (const double y : {-line, 0.0, line})
+      lines.places.insert(lines.places.end(), {{-side, y, 0.0}, {side, y, 0.0}});
+    for (const double x : {-side, side}) lines.places.insert(lines.places.end(), {{x, -line, 0.0}, {x, line, 0.0}});
+    Marker goals{"goals", Marker::kLineList, true, kWhite, pitch.goal.post_width_m, {}};
+    for (const double y : {-line, line}) {
+      goals.places.insert(goals.places.end(), {{-post, y, 0.0}, {-post, y, bar}, {post, y, 0.0}, {post, y, bar}});
+      goals.places.insert(goals.places.end(), {{-post, y, bar}, {post, y, bar}});
+    }
+    write_markers(cdr_, in_field(t_ns), {lines, goals});
+    put(topic, kMarkers);
+  }
+
+  /// What a row shows, on topics that begin with `prefix`; most tables show nothing.
+  void put_row(const log::StreamTable& table, const log::NamedCells& cells, std::int64_t t_ns, double goal_y_m,
+               const std::string& prefix, const std::string& robot, const PutMessage& put) {
+    const Header header = in_field(t_ns);
+    const auto crossings = [&](const Marker& marker) {
+      write_markers(cdr_, header, {marker});
+      put(prefix + "/crossings", kMarkers);
+    };
+    if (table.name == "world_states") {
+      const mcap::FloorPose pose{cells.get<double>("x_m"), cells.get<double>("y_m"),
+                                 cells.get<double>("heading_rad") + 0.5 * std::numbers::pi};
+      write_transform(cdr_, header, robot, pose);
+      put("/tf", "tf2_msgs/TFMessage");
+      write_pose(cdr_, header, pose);
+      put(prefix + "/pose", "geometry_msgs/PoseStamped");
+      const auto x_m = cells.find<double>("ball_x_m"), y_m = cells.find<double>("ball_y_m");
+      std::optional<Eigen::Vector3d> ball;
+      if (cells.get<bool>("ball_known") && x_m && y_m) ball.emplace(*x_m, *y_m, kicking::Ball{}.radius_m);
+      write_markers(cdr_, header, {ball_at("ball", kOrange, ball)});
+      put(prefix + "/ball", kMarkers);
+    } else if (table.name == "kick_decisions") {
+      write_markers(cdr_, header, segments(cells));
+      put(prefix + "/alignment", kMarkers);
+      if (cells.get<bool>("fire"))
+        crossings(crossing("predicted", kBlue, cells.find<double>("predicted_x_cross_m"),
+                           cells.get<double>("target_y_m"), cells.find<double>("predicted_z_cross_m")));
+    } else if (table.name == "kick_outcomes") {
+      crossings(
+          crossing("observed", kGreen, cells.find<double>("x_cross_m"), goal_y_m, cells.find<double>("z_cross_m")));
+    } else if (table.name == "kick_truths") {
+      crossings(crossing("simulated truth", kGrey, cells.find<double>("x_cross_m"), goal_y_m,
+                         cells.find<double>("z_cross_m")));
+    }
+  }
+
+ private:
+  mcap::Cdr& cdr_;
+};
 
 /// UTC of a session's clock, from one instant on.
 struct ClockPiece {
@@ -54,8 +162,7 @@ struct ExportedSession {
 struct ExportedPart {
   const log::StreamTable* table;
   const ExportedSession* of;
-  const Places* places;
-  std::optional<std::size_t> instant, number;  ///< columns of its time and of seq
+  std::optional<std::size_t> instant;  ///< column of its time
   std::string prefix, robot, topic;
   std::optional<std::uint16_t> channel{};  ///< from its first row on
 };
@@ -66,7 +173,6 @@ class McapExport {
              const std::string& library, const ExportProgress& progress)
       : reader_(reader), tables_(tables_of(plan)), pace_(progress), scene_(cdr_), writer_(file, library) {
     read_sessions(plan);
-    for (const log::StreamTable& table : tables_) places_.try_emplace(table.name, table);
     for (const ExportedSession& session : sessions_) {
       for (const log::StreamTable& table : tables_) add_parts(session, table);
     }
@@ -77,7 +183,9 @@ class McapExport {
     for (const ExportedSession& of : sessions_) describe(of);
     reader_.for_each_row_in_time(
         asked_, [this](std::size_t i, std::span<const Value> row) { return instant_of(parts_[i], row); },
-        [this](std::size_t i, std::int64_t t_ns, std::span<const Value> row) { put_row(parts_[i], t_ns, row); });
+        [this](std::size_t i, std::int64_t t_ns, std::span<const Value> row) {
+          put_row(parts_[i], asked_[i].columns, t_ns, row);
+        });
     writer_.close();
     return std::move(rows_);
   }
@@ -107,18 +215,18 @@ class McapExport {
   }
 
   void add_parts(const ExportedSession& of, const log::StreamTable& table) {
-    ExportedPart part{&table, &of, &places_.at(table.name), {}, {}, "", "", ""};
-    for (const char* const column : {"t_ns", "from_t_ns"}) {
-      if (!part.instant && table.has(column)) part.instant = (*part.places)[column];
-    }
+    ExportedPart part{&table, &of, {}, "", "", ""};
     std::vector<std::string> columns;
     for (const log::StreamColumn& column : table.columns) columns.push_back(column.name);
+    for (const char* const column : {"t_ns", "from_t_ns"}) {
+      if (!part.instant && table.has(column))
+        part.instant = static_cast<std::size_t>(std::ranges::find(columns, column) - columns.begin());
+    }
     const auto add = [&](std::optional<int> robot_id) {
       parts_.push_back(part);
       asked_.push_back({table.name, columns, table.key, of.session.session_id, robot_id});
     };
     if (!table.is_of_robots()) return add(std::nullopt);
-    part.number = (*part.places)["seq"];
     for (const int robot_id : reader_.robots_in(table.name, of.session.session_id)) {
       part.robot = fmt::format("robot_{}", robot_id);
       add(robot_id);
@@ -164,15 +272,18 @@ class McapExport {
     return std::max(std::int64_t{0}, part.of->utc_ns(t_ns != nullptr ? *t_ns : part.of->session.started_t_ns));
   }
 
-  void put_row(ExportedPart& part, std::int64_t t_ns, std::span<const Value> row) {
+  void put_row(ExportedPart& part, const std::vector<std::string>& columns, std::int64_t t_ns,
+               std::span<const Value> row) {
+    log::NamedCells cells{columns};
+    cells.set(row);
     pace_.row();
     ++rows_[part.table->name];
     write_row(cdr_, *part.table, row);
     if (!part.channel) part.channel = channel_of(part.topic, mcap::schema_of(*part.table));
-    const auto number = part.number ? log::cell_as<std::int64_t>(row[*part.number], *part.number) : std::int64_t{0};
+    const auto number = part.table->is_of_robots() ? cells.get<std::int64_t>("seq") : std::int64_t{0};
     writer_.write(*part.channel, static_cast<std::uint32_t>(number), static_cast<std::uint64_t>(t_ns), cdr_.bytes());
     if (part.robot.empty()) return;
-    scene_.put_row(*part.table, *part.places, row, t_ns, part.of->pitch.goal.y_m, part.prefix, part.robot,
+    scene_.put_row(*part.table, cells, t_ns, part.of->pitch.goal.y_m, part.prefix, part.robot,
                    [&](const std::string& topic, std::string_view type) { put_standard(topic, type, t_ns); });
   }
 
@@ -199,7 +310,6 @@ class McapExport {
   MatchScene scene_;
   mcap::Writer writer_;
   std::vector<ExportedSession> sessions_;
-  std::map<std::string, Places> places_;
   std::vector<ExportedPart> parts_;
   std::vector<log::TimedPart> asked_;  // the same parts
   std::map<std::string, std::uint16_t> channels_;

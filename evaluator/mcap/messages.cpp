@@ -149,18 +149,8 @@ using log::CellKind;
 using log::StreamColumn;
 
 const char* type_of(CellKind kind) {
-  switch (kind) {
-    case CellKind::kInteger:
-      return "int64";
-    case CellKind::kTruth:
-      return "bool";
-    case CellKind::kNumber:
-      return "float64";
-    case CellKind::kLabel:
-      return "uint8";
-    default:
-      return "string";
-  }
+  constexpr std::array kTypes{"int64", "bool", "float64", "uint8", "string"};
+  return kTypes.at(static_cast<std::size_t>(kind));
 }
 
 std::string upper(std::string text) {

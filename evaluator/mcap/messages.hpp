@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "evaluator/mcap/mcap_writer.hpp"
-#include "log/read/stream_table.hpp"
 #include "log/schema/row.hpp"
+#include "log/schema/stream_table.hpp"
 
 namespace trivela::evaluator::mcap {
 

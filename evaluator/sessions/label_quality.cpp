@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "evaluator/metrics/label_doubt.sql.hpp"
@@ -98,11 +97,6 @@ void LabelQuality::add(const LabelQuality& other) {
   has_probabilities = has_probabilities || other.has_probabilities;
   stopped_free += other.stopped_free;
   kicks += other.kicks;
-}
-
-double LabelQuality::expected_wrong() const {
-  return std::accumulate(rows.begin(), rows.end(), 0.0,
-                         [](double sum, const SightingsRow& row) { return sum + row.expected_wrong; });
 }
 
 std::vector<std::string> LabelQuality::goal_warnings() const {

@@ -72,7 +72,6 @@ struct LabelQuality {
   /// Adds the labels of another log. Goal and releases are each log's own: its warnings say them.
   void add(const LabelQuality& other);
 
-  double expected_wrong() const;
   /// Sentences on tracks that contradict the goal's place; none: they do not.
   std::vector<std::string> goal_warnings() const;
   /// Sentences on robots whose balls leave earlier or later than their files say.

@@ -37,25 +37,21 @@ void append(std::vector<Row>& all, std::vector<Row> rows, const std::set<std::in
   all.insert(all.end(), rows.begin(), rows.end());
 }
 
+struct SessionLoss : log::Loss {
+  std::int64_t session_id = 0;
+};
+
 void add_losses(std::map<std::string, log::Loss>& losses, const log::Reader& reader,
                 const std::set<std::int64_t>& own) {
-  reader.query(
-      "SELECT session_id, stream, sum(received) AS received, sum(lost) AS lost, sum(gaps) AS gaps, sum(overflow) AS "
-      "overflow, sum(nan_refused) AS nan_refused, sum(rejected) AS rejected, sum(out_of_order) AS out_of_order "
-      "FROM losses GROUP BY session_id, stream",
-      [&](const log::NamedCells& row) {
-        const auto& stream = row.get<std::string>("stream");
-        if (!own.contains(row.get<std::int64_t>("session_id"))) return;
-        log::Loss& loss = losses[stream];
-        loss.stream = stream;
-        loss.received += row.get<std::int64_t>("received");
-        loss.lost += row.get<std::int64_t>("lost");
-        loss.gaps += row.get<std::int64_t>("gaps");
-        loss.overflow += row.get<std::int64_t>("overflow");
-        loss.nan_refused += row.get<std::int64_t>("nan_refused");
-        loss.rejected += row.get<std::int64_t>("rejected");
-        loss.out_of_order += row.get<std::int64_t>("out_of_order");
-      });
+  using L = SessionLoss;
+  const auto found = reader.rows<L>(
+      "SELECT session_id, stream, sum(received), sum(lost), sum(gaps), sum(overflow), sum(nan_refused), sum(rejected), "
+      "sum(out_of_order) FROM losses GROUP BY session_id, stream",
+      &L::session_id, &L::stream, &L::received, &L::lost, &L::gaps, &L::overflow, &L::nan_refused, &L::rejected,
+      &L::out_of_order);
+  for (const L& loss : found)
+    if (own.contains(loss.session_id))
+      losses.try_emplace(loss.stream, log::Loss{.stream = loss.stream}).first->second += loss;
 }
 
 std::vector<UnclosedKick> unclosed_kicks_of(const log::Reader& reader) {
@@ -223,11 +219,6 @@ Report make_report(std::span<const OpenLog> logs, bool blocked_apart) {
   report.warnings.insert(report.warnings.end(), report.goal_warnings.begin(), report.goal_warnings.end());
   warn_of_replays(report);
   return report;
-}
-
-Report make_report(log::Reader&& reader, bool blocked_apart) {
-  const OpenLog log{&reader, "this log"};
-  return make_report(std::span(&log, 1), blocked_apart);
 }
 
 }  // namespace trivela::evaluator

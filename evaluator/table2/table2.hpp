@@ -104,9 +104,6 @@ struct Report {
 /// otherwise they are outside, as in the paper's Table 2. Throws std::runtime_error where a log cannot be read.
 Report make_report(std::span<const OpenLog> logs, bool blocked_apart = false);
 
-/// The same of one log.
-Report make_report(log::Reader&& reader, bool blocked_apart = false);
-
 /// Aligned tables for a terminal: Table 2, why the misses missed, data quality.
 std::string to_text(const Report& report);
 

@@ -52,7 +52,7 @@ void check_that_rows_have_sessions(const LogFile& file) {
                            table),
                [&](std::int64_t) { damaged(file, fmt::format("{} has rows of no session", table)); });
   };
-  for (const DigestedTable& table : digested_tables()) check(table.name);
+  for (const StreamTable& table : digested_tables()) check(table.name);
   check("digests");
 }
 

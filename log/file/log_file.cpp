@@ -133,10 +133,22 @@ Value value_of(const SQLite::Column& column) {
   return Blob(bytes, bytes + column.getBytes());
 }
 
-std::vector<std::string> names_of(const SQLite::Statement& statement) {
-  std::vector<std::string> names(static_cast<std::size_t>(statement.getColumnCount()));
-  for (std::size_t i = 0; i < names.size(); ++i) names[i] = statement.getColumnName(static_cast<int>(i));
-  return names;
+void each_row_of(SQLite::Statement& statement, const HeadFunction& head, const RowFunction& fn) {
+  std::vector<Value> row(static_cast<std::size_t>(statement.getColumnCount()));
+  if (head) {
+    std::vector<std::string> names(row.size());
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = statement.getColumnName(static_cast<int>(i));
+    head(names);
+  }
+  while (statement.executeStep()) {
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = value_of(statement.getColumn(static_cast<int>(i)));
+    fn(row);
+  }
+}
+
+void OwnRows::each_row(std::string_view sql, const HeadFunction& head, const RowFunction& fn) const {
+  SQLite::Statement statement(database_, std::string(sql));
+  each_row_of(statement, head, fn);
 }
 
 struct LogFile::Budget {
@@ -238,19 +250,12 @@ void LogFile::each_row(std::string_view sql, const HeadFunction& head, const Row
 }
 
 void LogFile::each_row_of(SQLite::Statement& statement, std::string_view sql, const HeadFunction& head,
-                          const RowFunction& fn) const {
-  if (head) head(names_of(statement));
-  std::vector<Value> row(static_cast<std::size_t>(statement.getColumnCount()));
-  while (statement.executeStep()) {
-    for (std::size_t i = 0; i < row.size(); ++i) row[i] = value_of(statement.getColumn(static_cast<int>(i)));
-    try {
-      fn(row);
-    } catch (const WrongCell& wrong) {
-      throw std::runtime_error(fmt::format("cannot read the {} {}: column {} of \"{:.100}\" is not {}", kind_.name,
-                                           path_, statement.getColumnName(static_cast<int>(wrong.column)),
-                                           sql.substr(0, sql.find('\n')), wrong.wanted));
-    }
-  }
+                          const RowFunction& fn) const try {
+  log::each_row_of(statement, head, fn);
+} catch (const WrongCell& wrong) {
+  throw std::runtime_error(fmt::format("cannot read the {} {}: column {} of \"{:.100}\" is not {}", kind_.name, path_,
+                                       statement.getColumnName(static_cast<int>(wrong.column)),
+                                       sql.substr(0, sql.find('\n')), wrong.wanted));
 }
 
 void LogFile::ask(const std::string& sql, const HeadFunction& head, const RowFunction& fn) const {

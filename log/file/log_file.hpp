@@ -21,8 +21,19 @@ namespace trivela::log {
 /// The value of a column of the row that the statement stands at.
 Value value_of(const SQLite::Column& column);
 
-/// The names of a query's columns.
-std::vector<std::string> names_of(const SQLite::Statement& statement);
+/// Calls `head` with the names of the statement's columns, where it is one, then `fn` for each row.
+void each_row_of(SQLite::Statement& statement, const HeadFunction& head, const RowFunction& fn);
+
+/// Rows of a database of our own that is being written. Errors are SQLite's.
+class OwnRows final : public Queries {
+ public:
+  explicit OwnRows(SQLite::Database& database) : database_(database) {}
+
+ private:
+  void each_row(std::string_view sql, const HeadFunction& head, const RowFunction& fn) const override;
+
+  SQLite::Database& database_;
+};
 
 /// What was opened is no log of the kind that was asked for: it is not there, a folder, empty or another file.
 class NoSuchLog : public RefusedLog {

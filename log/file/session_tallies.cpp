@@ -15,6 +15,8 @@
 #include "log/file/kicked_tracks_of.sql.hpp"
 #include "log/file/played_spans_of.sql.hpp"
 #include "log/file/recorded_halves_of.sql.hpp"
+#include "log/schema/bind.hpp"
+#include "log/schema/queries.hpp"
 #include "log/schema/row_digest.hpp"
 
 namespace trivela::log {
@@ -93,25 +95,6 @@ std::vector<double> ball_turns_of(const Queries& reader) {
 
 namespace {
 
-/// Rows of a database of our own that is being written. Errors are SQLite's.
-class OwnRows final : public Queries {
- public:
-  explicit OwnRows(SQLite::Database& database) : database_(database) {}
-
- private:
-  void each_row(std::string_view sql, const HeadFunction& head, const RowFunction& fn) const override {
-    SQLite::Statement statement(database_, std::string(sql));
-    if (head) head(names_of(statement));
-    std::vector<Value> row(static_cast<std::size_t>(statement.getColumnCount()));
-    while (statement.executeStep()) {
-      for (std::size_t i = 0; i < row.size(); ++i) row[i] = value_of(statement.getColumn(static_cast<int>(i)));
-      fn(row);
-    }
-  }
-
-  SQLite::Database& database_;
-};
-
 /// What is counted of the sessions that `wanted`, a SELECT, names, as a SELECT.
 std::string counted(std::string_view wanted, std::string_view what) {
   return fmt::format("WITH wanted (session_id) AS ({}) {}", wanted, what);
@@ -145,13 +128,7 @@ std::array<Tally, 4> tallies(std::string_view wanted) {
 void write_turns(SQLite::Database& database, std::int64_t session_id, std::string_view wanted) {
   SQLite::Statement insert(database, "INSERT INTO main.ball_turns VALUES (?, ?, ?)");
   std::int64_t turn = 0;
-  for (const BallTurn& found : ball_turns(OwnRows(database), wanted)) {
-    insert.reset();
-    insert.bind(1, session_id);
-    insert.bind(2, turn++);
-    insert.bind(3, found.y_m);
-    insert.exec();
-  }
+  for (const BallTurn& found : ball_turns(OwnRows(database), wanted)) run(insert, session_id, turn++, found.y_m);
 }
 
 }  // namespace

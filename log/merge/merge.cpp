@@ -12,6 +12,7 @@
 #include "log/file/new_file.hpp"
 #include "log/file/session_tallies.hpp"
 #include "log/merge/merged_log.hpp"
+#include "log/schema/bind.hpp"
 #include "log/schema/row_digest.hpp"
 #include "log/schema/schema.hpp"
 
@@ -131,7 +132,7 @@ class Merging {
       if (sources_[i].reader() == nullptr) continue;
       copy_experiments(database, sources_[i]);
       if (is_taken_whole(i)) continue;
-      for (const DigestedTable& table : digested_tables()) copy_rows(database, i, table, true);
+      for (const StreamTable& table : digested_tables()) copy_rows(database, i, table, true);
     }
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       const bool has_more = std::ranges::any_of(sources_[i].sessions(), [&](const auto& session) {
@@ -139,7 +140,7 @@ class Merging {
         return choice.source != i && choice.copy != Copy::kWhole;
       });
       if (!has_more) continue;
-      for (const DigestedTable& table : digested_tables()) copy_rows(database, i, table, false);
+      for (const StreamTable& table : digested_tables()) copy_rows(database, i, table, false);
     }
   }
 
@@ -180,7 +181,7 @@ class Merging {
   }
 
   /// Of each session what its chosen file has, or, not `chosen`, what the others have beyond.
-  void copy_rows(SQLite::Database& database, std::size_t source, const DigestedTable& table, bool chosen) {
+  void copy_rows(SQLite::Database& database, std::size_t source, const StreamTable& table, bool chosen) {
     RowCopy copy(database, table.name);
     const std::size_t id_place = copy.place("session_id");
     const bool of_session = table.name == "sessions";
@@ -246,9 +247,7 @@ class Merging {
         if (!rows_of_whole(database, session_id)) digests.write(session_id);
         if (!has_tallies(database, session_id)) write_tallies(database, session_id);
       } else {
-        reopen.bind(1, session_id);
-        reopen.exec();
-        reopen.reset();
+        run(reopen, session_id);
       }
       session.clock = clock_of(database, session_id);
       if (!session.is_whole) session.missing_rows = missing_rows(database, session_id);
@@ -279,20 +278,16 @@ class Merging {
     }
   }
 
-  /// What people say, of every file; tallies of the rows that a session has in the file that it is taken from.
+  /// What people say, of every file.
   void copy_said(SQLite::Database& database) {
-    for (const std::string_view table : kSaidAfterwards) {
-      if (table == "session_clocks" || table == "merged_sessions") continue;
-      const bool by_people = table == "labels" || table == "notes";
+    for (const std::string_view table : {"labels", "notes"}) {
       RowCopy copy(database, table);
       const std::size_t id_place = copy.place("session_id");
-      for (std::size_t i = 0; i < sources_.size(); ++i) {
-        if (sources_[i].reader() == nullptr) continue;
-        sources_[i].for_each_row(table, copy.columns(), "session_id", [&](std::span<const Value> row) {
+      for (const MergeSource& source : sources_) {
+        if (source.reader() == nullptr) continue;
+        source.for_each_row(table, copy.columns(), "session_id", [&](std::span<const Value> row) {
           const auto* const id = std::get_if<std::int64_t>(&row[id_place]);
-          const auto choice = id != nullptr ? choices_.find(*id) : choices_.end();
-          if (choice == choices_.end() || unfit_.contains(*id)) return;
-          if (by_people || (choice->second.source == i && choice->second.copy == Copy::kWhole)) add(copy, row);
+          if (id != nullptr && choices_.contains(*id) && !unfit_.contains(*id)) add(copy, row);
         });
       }
     }

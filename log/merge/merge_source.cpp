@@ -63,12 +63,11 @@ void MergeSource::for_each_text(const std::function<void(const std::string&, con
   });
 }
 
-bool MergeSource::for_each_row(std::string_view table, const std::vector<std::string>& columns, std::string_view key,
+void MergeSource::for_each_row(std::string_view table, const std::vector<std::string>& columns, std::string_view key,
                                const RowFunction& fn) const {
   const std::string select = fmt::format("SELECT {} FROM {} ORDER BY ", fmt::join(columns, ", "), table);
   try {
-    reader_->query(select + std::string(key), fn);
-    return true;
+    return reader_->query(select + std::string(key), fn);
   } catch (const std::runtime_error&) {
     if (damage_.empty()) throw;
   }
@@ -79,12 +78,11 @@ bool MergeSource::for_each_row(std::string_view table, const std::vector<std::st
   } catch (const std::runtime_error&) {
     // That it is damaged is known; what came until here is taken.
   }
-  return false;
 }
 
 std::int64_t MergeSource::rows_of(std::int64_t session_id) const {
   std::int64_t rows = 0;
-  for (const DigestedTable& table : digested_tables()) {
+  for (const StreamTable& table : digested_tables()) {
     try {
       reader_->query(fmt::format("SELECT count(*) FROM {} WHERE session_id = {}", table.name, session_id),
                      [&](std::int64_t count) { rows += count; });

@@ -39,8 +39,8 @@ class MergeSource {
   void for_each_text(const std::function<void(const std::string& name, const std::string& text)>& fn) const;
 
   /// Rows of a table in the order of `key`; of a damaged file those before the damage and those behind it, from the
-  /// end on. False: not all of them.
-  bool for_each_row(std::string_view table, const std::vector<std::string>& columns, std::string_view key,
+  /// end on.
+  void for_each_row(std::string_view table, const std::vector<std::string>& columns, std::string_view key,
                     const RowFunction& fn) const;
 
   /// Rows that can be counted of a session.

@@ -1,6 +1,5 @@
 #include "log/merge/merged_log.hpp"
 
-#include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sqlite3.h>
@@ -9,6 +8,8 @@
 #include <variant>
 
 #include "log/file/files_beside.hpp"
+#include "log/file/log_file.hpp"
+#include "log/schema/bind.hpp"
 #include "log/schema/row_digest.hpp"
 #include "log/schema/schema.hpp"
 
@@ -63,13 +64,9 @@ std::int64_t copy_whole(SQLite::Database& database, const std::filesystem::path&
   attach.exec();
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   std::int64_t rows = 0;
-  for (const DigestedTable& table : digested_tables()) {
-    std::vector<std::string> names;
-    const auto columns = columns_of(database, table.name).value();
-    names.reserve(columns.size());
-    for (const Column& column : columns) names.push_back(column.name);
+  for (const StreamTable& table : digested_tables()) {
     rows += database.exec(fmt::format("INSERT OR IGNORE INTO main.{0} ({1}) SELECT {1} FROM whole.{0} ORDER BY {2}",
-                                      table.name, fmt::join(names, ", "), table.key));
+                                      table.name, fmt::join(names_of_columns(database, table.name), ", "), table.key));
     told(rows);
   }
   // A row that was left out is found by the number alone: what is copied is copied as it is.
@@ -102,7 +99,7 @@ bool has_tallies(SQLite::Database& database, std::int64_t session_id) {
 std::int64_t counted_rows(SQLite::Database& database, std::int64_t session_id) {
   constexpr const char* kAsked = "SELECT count(*) FROM main.{} WHERE session_id = {}";
   std::int64_t rows = 0;
-  for (const DigestedTable& table : digested_tables())
+  for (const StreamTable& table : digested_tables())
     rows += database.execAndGet(fmt::format(kAsked, table.name, session_id)).getInt64();
   return rows;
 }
@@ -151,7 +148,7 @@ std::vector<ClockOffset> offsets_of(SQLite::Database& database) {
 
 std::int64_t missing_rows(SQLite::Database& database, std::int64_t session_id) {
   std::int64_t missing = 0;
-  for (const DigestedTable& table : digested_tables()) {
+  for (const StreamTable& table : digested_tables()) {
     const auto recorded = only_number(
         database, fmt::format("SELECT received - overflow - nan_refused - rejected FROM losses WHERE session_id = {} "
                               "AND stream = '{}' AND robot_id = 0",
@@ -165,22 +162,16 @@ std::int64_t missing_rows(SQLite::Database& database, std::int64_t session_id) {
 }
 
 ClockedSession clock_of(SQLite::Database& database, std::int64_t session_id) {
-  SQLite::Statement query(
-      database, fmt::format("SELECT uuid, started_t_ns, coalesce(closed_t_ns, (SELECT max(to_t_ns) FROM losses AS l "
-                            "WHERE l.session_id = s.session_id AND l.robot_id = 0), started_t_ns), "
-                            "realtime_offset_ns FROM sessions AS s WHERE session_id = {}",
-                            session_id));
-  ClockedSession clock{.session_id = session_id,
-                       .uuid = "",
-                       .robot_id = robot_of(database, session_id),
-                       .started_t_ns = 0,
-                       .ended_t_ns = 0,
-                       .realtime_offset_ns = 0};
-  if (!query.executeStep()) return clock;  // what could not be read of its row
-  clock.uuid = query.getColumn(0).getString();
-  clock.started_t_ns = query.getColumn(1).getInt64();
-  clock.ended_t_ns = query.getColumn(2).getInt64();
-  clock.realtime_offset_ns = query.getColumn(3).getInt64();
+  using C = ClockedSession;
+  auto found = OwnRows(database).rows<C>(
+      fmt::format("SELECT uuid, started_t_ns, coalesce(closed_t_ns, (SELECT max(to_t_ns) FROM losses AS l WHERE "
+                  "l.session_id = s.session_id AND l.robot_id = 0), started_t_ns), realtime_offset_ns FROM sessions "
+                  "AS s WHERE session_id = {}",
+                  session_id),
+      &C::uuid, &C::started_t_ns, &C::ended_t_ns, &C::realtime_offset_ns);
+  ClockedSession clock = found.empty() ? C{} : std::move(found.front());  // none: its row could not be read
+  clock.session_id = session_id;
+  clock.robot_id = robot_of(database, session_id);
   return clock;
 }
 
@@ -194,12 +185,9 @@ Alignment write_clocks(SQLite::Database& database, const std::vector<MergedSessi
                            "INSERT INTO session_clocks (session_id, from_t_ns, utc_offset_ns, rate, error_ns, "
                            "reference_uuid) VALUES (?, ?, ?, ?, ?, ?)");
   for (const AlignedSession& session : alignment.sessions) {
-    for (const ClockSegment& segment : session.segments) {
-      SQLite::bind(insert, session.session_id, segment.from_t_ns, segment.utc_offset_ns, segment.rate, segment.error_ns,
-                   alignment.reference_uuid);
-      insert.exec();
-      insert.reset();
-    }
+    for (const ClockSegment& segment : session.segments)
+      run(insert, session.session_id, segment.from_t_ns, segment.utc_offset_ns, segment.rate, segment.error_ns,
+          alignment.reference_uuid);
   }
   return alignment;
 }

@@ -4,13 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
+#include <queue>
 #include <stdexcept>
 #include <utility>
 
 #include "log/file/log_file.hpp"
 #include "log/file/session_tallies.hpp"
-#include "log/read/stream_search.hpp"
+#include "log/schema/bind.hpp"
 #include "log/schema/row_digest.hpp"
 
 namespace trivela::log {
@@ -22,6 +24,105 @@ std::optional<RecordedOutcome> crossing_of(const std::optional<std::string>& out
                                            std::optional<double> z_cross_m) {
   if (!outcome) return std::nullopt;
   return RecordedOutcome{*outcome, x_cross_m, z_cross_m};
+}
+
+void ask(SQLite::Statement& statement, std::initializer_list<std::int64_t> numbers) {
+  statement.reset();
+  int place = 0;
+  for (const std::int64_t number : numbers) statement.bind(++place, number);
+}
+
+}  // namespace
+
+/// Finds rows of a stream by their instant, which has no index, through the key of session, robot and seq.
+class StreamSearch {
+ public:
+  /// `table` and `columns` are there.
+  StreamSearch(SQLite::Database& database, std::string_view table, const std::vector<std::string>& columns)
+      // Each end by itself: asked for both at once, SQLite walks through all rows between them.
+      : ends_(database, fmt::format("SELECT (SELECT min(seq) FROM {0} WHERE session_id = ?1 AND robot_id = ?2), "
+                                    "(SELECT max(seq) FROM {0} WHERE session_id = ?1 AND robot_id = ?2)",
+                                    table)),
+        instant_(database, fmt::format("SELECT seq, t_ns FROM {} WHERE session_id = ? AND robot_id = ? AND seq >= ? "
+                                       "ORDER BY seq LIMIT 1",
+                                       table)),
+        rows_(database, fmt::format("SELECT {} FROM {} WHERE session_id = ? AND robot_id = ? AND seq >= ? AND seq < ? "
+                                    "AND t_ns >= ? AND t_ns <= ? ORDER BY seq",
+                                    fmt::join(columns, ", "), table)) {}
+
+  void rows(const StreamSpan& span, const RowFunction& fn) {
+    const std::int64_t from = first_from(span, span.from_t_ns), to = first_from(span, span.to_t_ns + 1);
+    ask(rows_, {span.session_id, span.robot_id, from, to, span.from_t_ns, span.to_t_ns});
+    each_row_of(rows_, {}, fn);
+    for (SQLite::Statement* const asked : {&ends_, &instant_, &rows_})
+      asked->reset();  // a statement under way holds its snapshot
+  }
+
+ private:
+  // The first seq from which t_ns is no less; one past the last where there is none.
+  std::int64_t first_from(const StreamSpan& span, std::int64_t t_ns) {
+    ask(ends_, {span.session_id, span.robot_id});
+    if (!ends_.executeStep() || ends_.getColumn(0).isNull()) return 0;
+    std::int64_t low = ends_.getColumn(0).getInt64(), high = ends_.getColumn(1).getInt64() + 1;
+    while (low < high) {
+      const std::int64_t middle = low + (high - low) / 2;
+      ask(instant_, {span.session_id, span.robot_id, middle});
+      if (instant_.executeStep() && instant_.getColumn(1).getInt64() < t_ns) {
+        low = instant_.getColumn(0).getInt64() + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return low;
+  }
+
+  SQLite::Statement ends_;     // first and last seq of a session and robot
+  SQLite::Statement instant_;  // seq and t_ns of the row with a seq, or of the next one
+  SQLite::Statement rows_;
+};
+
+namespace {
+
+/// One part of a table with the row that comes next.
+class Cursor {
+ public:
+  Cursor(SQLite::Database& database, const TimedPart& part)
+      : statement_(database,
+                   fmt::format("SELECT {} FROM {} WHERE session_id = ?{} ORDER BY {}", fmt::join(part.columns, ", "),
+                               part.table, part.robot_id ? " AND robot_id = ?" : "", part.key)),
+        row_(part.columns.size()) {
+    statement_.bind(1, part.session_id);
+    if (part.robot_id) statement_.bind(2, *part.robot_id);
+  }
+
+  bool step() {
+    if (!statement_.executeStep()) return false;
+    for (std::size_t i = 0; i < row_.size(); ++i) row_[i] = value_of(statement_.getColumn(static_cast<int>(i)));
+    return true;
+  }
+
+  std::span<const Value> row() const { return row_; }
+
+ private:
+  SQLite::Statement statement_;
+  std::vector<Value> row_;
+};
+
+void rows_in_time(SQLite::Database& database, const std::vector<TimedPart>& parts, const PartInstant& instant,
+                  const PartRow& fn) {
+  using Next = std::pair<std::int64_t, std::size_t>;  // instant, part
+  std::priority_queue<Next, std::vector<Next>, std::greater<>> next;
+  std::vector<std::unique_ptr<Cursor>> cursors;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    cursors.push_back(std::make_unique<Cursor>(database, parts[i]));
+    if (cursors[i]->step()) next.emplace(instant(i, cursors[i]->row()), i);
+  }
+  while (!next.empty()) {
+    const auto [t_ns, i] = next.top();
+    next.pop();
+    fn(i, t_ns, cursors[i]->row());
+    if (cursors[i]->step()) next.emplace(instant(i, cursors[i]->row()), i);
+  }
 }
 
 }  // namespace
@@ -37,7 +138,7 @@ struct Reader::Impl {
     file.query("COMMIT", [](auto) {});
   }
 
-  std::vector<Column> schema_with(std::string_view table, const std::vector<std::string>& columns) const;
+  void check_columns(std::string_view table, const std::vector<std::string>& columns) const;
 
   LogFile file;
   Verification verification;
@@ -86,40 +187,17 @@ std::vector<GivenLabel> Reader::labels() const {
 
 void Reader::read_labels(const std::vector<GivenLabel>& labels) {
   SQLite::Statement insert(impl_->file.database(), "INSERT INTO temp.labels_elsewhere VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-  for (const GivenLabel& label : labels) {
-    insert.bind(1, label.uuid);
-    insert.bind(2, label.robot_id);
-    insert.bind(3, label.kick_id);
-    insert.bind(4, label.utc_ns);
-    insert.bind(5, label.who);
-    insert.bind(6, label.t_ns);
-    if (label.outcome) {
-      insert.bind(7, *label.outcome);
-    } else {
-      insert.bind(7);
-    }
-    insert.bind(8, label.note);
-    insert.exec();
-    insert.reset();
-  }
+  for (const GivenLabel& label : labels)
+    run(insert, label.uuid, label.robot_id, label.kick_id, label.utc_ns, label.who, label.t_ns, label.outcome,
+        label.note);
 }
 
 void Reader::leave_out(const std::vector<std::int64_t>& session_ids, const std::vector<RecordedKick>& kicks) {
   SQLite::Database& database = impl_->file.database();
   SQLite::Statement session(database, "INSERT OR IGNORE INTO temp.left_out_sessions VALUES (?)");
-  for (const std::int64_t session_id : session_ids) {
-    session.bind(1, session_id);
-    session.exec();
-    session.reset();
-  }
+  for (const std::int64_t session_id : session_ids) run(session, session_id);
   SQLite::Statement insert(database, "INSERT OR IGNORE INTO temp.left_out_kicks VALUES (?, ?, ?)");
-  for (const RecordedKick& kick : kicks) {
-    insert.bind(1, kick.session_id);
-    insert.bind(2, kick.robot_id);
-    insert.bind(3, kick.kick_id);
-    insert.exec();
-    insert.reset();
-  }
+  for (const RecordedKick& kick : kicks) run(insert, kick.session_id, kick.robot_id, kick.kick_id);
 }
 
 void Reader::each_row(std::string_view sql, const HeadFunction& head, const RowFunction& fn) const {
@@ -130,14 +208,13 @@ void Reader::ask(const std::string& sql, const HeadFunction& head, const RowFunc
   impl_->file.ask(sql, head, fn);
 }
 
-std::vector<Column> Reader::Impl::schema_with(std::string_view table, const std::vector<std::string>& columns) const {
+void Reader::Impl::check_columns(std::string_view table, const std::vector<std::string>& columns) const {
   const auto schema = columns_of(file.database(), table);
   if (!schema) throw std::runtime_error(fmt::format("the match log {} has no table '{}'", file.path(), table));
   for (const std::string& column : columns) {
     if (std::ranges::find(*schema, column, &Column::name) != schema->end()) continue;
     throw std::runtime_error(fmt::format("table '{}' of {} has no column '{}'", table, file.path(), column));
   }
-  return *schema;
 }
 
 void Reader::for_each_row_between(std::string_view table, const std::vector<std::string>& columns,
@@ -145,7 +222,7 @@ void Reader::for_each_row_between(std::string_view table, const std::vector<std:
   const std::string key = fmt::format("{}:{}", table, fmt::join(columns, ","));
   auto stream = impl_->streams.find(key);
   if (stream == impl_->streams.end()) {
-    impl_->schema_with(table, columns);
+    impl_->check_columns(table, columns);
     stream = impl_->streams.try_emplace(key, impl_->file.database(), table, columns).first;
   }
   try {
@@ -175,21 +252,6 @@ std::vector<int> Reader::robots_in(std::string_view table, std::int64_t session_
                     table, session_id),
         [&](int robot_id) { robots.push_back(robot_id); });
   return robots;
-}
-
-void Reader::for_each_row(std::string_view table, const std::vector<std::string>& columns,
-                          const RowFunction& fn) const {
-  const std::vector<Column> schema = impl_->schema_with(table, columns);
-  const auto has = [&](const std::string& name) {
-    return std::ranges::find(schema, name, &Column::name) != schema.end();
-  };
-  std::vector<std::string> order;
-  for (const char* const key : {"session_id", "robot_id", "seq", "shadow_index"}) {
-    if (has(key)) order.push_back(key);
-  }
-  query(fmt::format("SELECT {} FROM {}{}{}", fmt::join(columns, ", "), table, order.empty() ? "" : " ORDER BY ",
-                    fmt::join(order, ", ")),
-        fn);
 }
 
 std::vector<RecordedSession> Reader::sessions() const {

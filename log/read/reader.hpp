@@ -5,13 +5,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "log/file/files_beside.hpp"
 #include "log/file/log_check.hpp"
-#include "log/read/timed_rows.hpp"
 #include "log/schema/queries.hpp"
 #include "log/schema/session.hpp"
 
@@ -76,6 +76,21 @@ struct StreamSpan {
   std::int64_t to_t_ns = 0;
 };
 
+/// A part of a table that is in order by itself.
+struct TimedPart {
+  std::string table;
+  std::vector<std::string> columns;
+  std::string key;  ///< of the table
+  std::int64_t session_id = 0;
+  std::optional<int> robot_id;  ///< none: rows of all
+};
+
+/// The instant of a row of a part, by one clock for all.
+using PartInstant = std::function<std::int64_t(std::size_t part, std::span<const Value> row)>;
+
+/// Called with the part, its row and the row's instant.
+using PartRow = std::function<void(std::size_t part, std::int64_t t_ns, std::span<const Value> row)>;
+
 /// Reads a match log and never changes it; a log whose recorder was killed opens too.
 class Reader final : public Queries {
  public:
@@ -116,18 +131,15 @@ class Reader final : public Queries {
   /// Counters by stream, summed over the sessions.
   std::vector<Loss> losses() const;
 
-  /// Calls `fn` for each row of a table, ordered by session, robot and seq as far as the table has them.
-  /// Throws std::runtime_error naming a table or column that does not exist.
-  void for_each_row(std::string_view table, const std::vector<std::string>& columns, const RowFunction& fn) const;
-
   /// The rows of one robot's stream, a table with session_id, robot_id, seq and t_ns, from one instant to another, both
   /// included, by seq. They are found by halving, since t_ns rises with seq: a long log is not walked through. Throws
-  /// as for_each_row().
+  /// std::runtime_error naming a table or column that does not exist.
   void for_each_row_between(std::string_view table, const std::vector<std::string>& columns, const StreamSpan& span,
                             const RowFunction& fn) const;
 
-  /// The rows of several parts of tables as one sequence in time: rows_in_time(). Throws std::runtime_error naming the
-  /// file.
+  /// Calls `fn` for the rows of all parts, the earliest of those that come next in their parts first, of one instant
+  /// the first part's. In memory is one row of each part. Throws std::runtime_error naming the file, and what `instant`
+  /// and `fn` throw.
   void for_each_row_in_time(const std::vector<TimedPart>& parts, const PartInstant& instant, const PartRow& fn) const;
 
   /// The robots that a session has rows of in a table of robots' streams, without walking through it.

@@ -61,6 +61,12 @@ const std::string& Digests::of(const std::string& text) {
   return found != by_text_.end() ? found->second : by_text_.emplace(text, sha256(text)).first->second;
 }
 
+std::string base64(std::span<const unsigned char> bytes) {
+  std::string text((bytes.size() + 2) / 3 * 4, '\0');
+  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), bytes.data(), static_cast<int>(bytes.size()));
+  return text;
+}
+
 std::string make_uuid() {
   std::array<unsigned char, 16> bytes{};
   if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1) {

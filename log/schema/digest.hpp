@@ -41,6 +41,9 @@ class Digests {
   std::map<std::string, std::string> by_text_;
 };
 
+/// Bytes in base 64 (RFC 4648).
+std::string base64(std::span<const unsigned char> bytes);
+
 /// A random UUID of version 4 (RFC 4122). Throws std::runtime_error where the system gives no random numbers.
 std::string make_uuid();
 

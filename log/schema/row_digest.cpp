@@ -5,43 +5,29 @@
 #include <algorithm>
 #include <bit>
 
+#include "log/schema/bind.hpp"
+
 namespace trivela::log {
 namespace {
 
 constexpr std::int64_t kToldEvery_rows = 10'000;
 constexpr std::size_t kPour_B = 1 << 16;
 
-std::vector<DigestedTable> digested_tables_of_schema() {
-  SQLite::Database empty(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  empty.exec(std::string(schema_of(kMatchLog)));
-  SQLite::Statement keys(empty, R"(
-    SELECT t.name, k.name FROM sqlite_schema t, pragma_table_info(t.name) k
-    WHERE t.type = 'table' AND t.name <> 'digests' AND k.pk > 0
-      AND EXISTS (SELECT * FROM pragma_table_info(t.name) WHERE name = 'session_id')
-    ORDER BY t.rowid, k.pk)");
-  std::vector<DigestedTable> tables;
-  while (keys.executeStep()) {
-    const std::string name = keys.getColumn(0).getString(), column = keys.getColumn(1).getString();
-    if (std::ranges::find(kSaidAfterwards, name) != kSaidAfterwards.end()) continue;
-    if (std::ranges::find(kTallies, name) != kTallies.end()) continue;
-    if (tables.empty() || tables.back().name != name) {
-      tables.push_back({name, column});
-    } else {
-      tables.back().key += ", " + column;
-    }
-  }
-  return tables;
-}
-
 }  // namespace
 
-const std::vector<DigestedTable>& digested_tables() {
-  static const std::vector<DigestedTable> tables = digested_tables_of_schema();
+const std::vector<StreamTable>& digested_tables() {
+  static const std::vector<StreamTable> tables = [] {
+    std::vector<StreamTable> digested = stream_tables();
+    std::erase_if(digested, [](const StreamTable& table) {
+      return std::ranges::count(kSaidAfterwards, table.name) + std::ranges::count(kTallies, table.name) > 0;
+    });
+    return digested;
+  }();
   return tables;
 }
 
 RowDigests::RowDigests(SQLite::Database& database) : database_(database) {
-  for (const DigestedTable& table : digested_tables()) {
+  for (const StreamTable& table : digested_tables()) {
     const std::string sql =
         fmt::format("SELECT * FROM main.{} WHERE session_id = ? ORDER BY {}", table.name, table.key);
     sqlite3_stmt* select = nullptr;
@@ -121,12 +107,8 @@ RowDigest RowDigests::of(std::int64_t session_id) {
 
 void RowDigests::write(std::int64_t session_id) {
   const RowDigest digest = of(session_id);
-  SQLite::Statement insert(database_,
-                           "INSERT OR REPLACE INTO main.digests (session_id, row_count, sha256) VALUES (?, ?, ?)");
-  insert.bind(1, session_id);
-  insert.bind(2, digest.row_count);
-  insert.bind(3, digest.sha256);
-  insert.exec();
+  run(database_, "INSERT OR REPLACE INTO main.digests (session_id, row_count, sha256) VALUES (?, ?, ?)", session_id,
+      digest.row_count, digest.sha256);
 }
 
 }  // namespace trivela::log

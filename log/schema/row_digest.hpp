@@ -13,14 +13,9 @@
 
 #include "log/schema/digest.hpp"
 #include "log/schema/schema.hpp"
+#include "log/schema/stream_table.hpp"
 
 namespace trivela::log {
-
-/// A table of a match log that a digest covers, and its primary key.
-struct DigestedTable {
-  std::string name;
-  std::string key;
-};
 
 /// Tables of what is said of a session afterwards, which no digest covers: by merging, by people. Copies of a log
 /// have them, too.
@@ -35,7 +30,7 @@ inline constexpr std::array<std::string_view, 6> kTallies = {
 /// session_id, in its order. Not `digests`, not `experiments`, which changes while an experiment goes on, and neither
 /// kSaidAfterwards nor kTallies. `texts` are covered by the hashes that sessions name them by. A change of these
 /// tables, or of their order, is another version of the log.
-const std::vector<DigestedTable>& digested_tables();
+const std::vector<StreamTable>& digested_tables();
 
 struct RowDigest {
   std::int64_t row_count = 0;

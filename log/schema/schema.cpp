@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "kicking/policy/policy.hpp"
+#include "log/schema/bind.hpp"
 #include "log/schema/reading_views.sql.hpp"
 #include "log/schema/row.hpp"
 #include "log/schema/scan_schema.sql.hpp"
@@ -18,10 +19,7 @@ namespace {
 /// Key of a text that the log holds from now on.
 const std::string& store(SQLite::Database& database, const std::string& text, Digests& digests) {
   const std::string& key = digests.of(text);
-  SQLite::Statement insert(database, "INSERT OR IGNORE INTO texts (sha256, text) VALUES (?, ?)");
-  insert.bind(1, key);
-  insert.bindNoCopy(2, text);
-  insert.exec();
+  run(database, "INSERT OR IGNORE INTO texts (sha256, text) VALUES (?, ?)", key, text);
   return key;
 }
 
@@ -85,22 +83,12 @@ namespace {
 /// What a session has several of.
 void insert_lists(SQLite::Database& database, const Session& session, std::int64_t session_id) {
   for (const DriverCount& driver : session.continued) {
-    SQLite::Statement count(
-        database, "INSERT INTO continued (session_id, robot_id, orders_handled, orders_refused) VALUES (?, ?, ?, ?)");
-    count.bind(1, session_id);
-    count.bind(2, driver.robot_id);
-    count.bind(3, driver.orders_handled);
-    count.bind(4, driver.orders_refused);
-    count.exec();
+    run(database, "INSERT INTO continued (session_id, robot_id, orders_handled, orders_refused) VALUES (?, ?, ?, ?)",
+        session_id, driver.robot_id, driver.orders_handled, driver.orders_refused);
   }
   for (const HalfPolicy& half : session.policies) {
-    SQLite::Statement policy(database,
-                             "INSERT INTO session_policies (session_id, robot_id, half, policy) VALUES (?, ?, ?, ?)");
-    policy.bind(1, session_id);
-    policy.bind(2, half.robot_id);
-    policy.bind(3, half.half);
-    policy.bind(4, half.policy);
-    policy.exec();
+    run(database, "INSERT INTO session_policies (session_id, robot_id, half, policy) VALUES (?, ?, ?, ?)", session_id,
+        half.robot_id, half.half, half.policy);
   }
 }
 
@@ -109,35 +97,18 @@ void insert_lists(SQLite::Database& database, const Session& session, std::int64
 void insert_session(SQLite::Database& database, const Session& session, std::optional<std::int64_t> closed_t_ns,
                     Digests& digests) {
   const std::int64_t session_id = session_id_of(session.uuid);
-  SQLite::Statement insert(
-      database,
-      "INSERT INTO sessions (session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, "
-      "realtime_offset_ns, config_sha256, seed, software_version, scenario, simulated, "
-      "idl_sha256, arm, kicker_table, match_id, continues_uuid, replays_uuid, paired_halves, planned_s, "
-      "calibration_id) "
-      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  insert.bind(1, session_id);
-  insert.bind(2, session.uuid);
-  if (session.robot_id) insert.bind(3, *session.robot_id);
-  insert.bind(4, session.started_t_ns);
-  if (closed_t_ns) insert.bind(5, *closed_t_ns);
-  insert.bind(6, session.simulated_clock ? "simulated" : "steady");
-  insert.bind(7, session.realtime_offset_ns);
-  insert.bind(8, store(database, session.config_toml, digests));
-  if (session.seed) insert.bind(9, *session.seed);
-  insert.bind(10, session.software_version);
-  insert.bind(11, session.scenario);
-  insert.bind(12, session.simulated ? 1 : 0);
-  insert.bind(13, store(database, session.idl, digests));
-  if (session.arm) insert.bind(14, *session.arm);
-  if (session.kicker_table) insert.bind(15, *session.kicker_table);
-  if (session.match_id) insert.bind(16, *session.match_id);
-  if (!session.continues_uuid.empty()) insert.bind(17, session.continues_uuid);
-  if (!session.replays_uuid.empty()) insert.bind(18, session.replays_uuid);
-  insert.bind(19, session.paired_halves ? 1 : 0);
-  if (session.planned_s) insert.bind(20, *session.planned_s);
-  if (session.calibration_id) insert.bind(21, *session.calibration_id);
-  insert.exec();
+  const std::string &config = store(database, session.config_toml, digests),
+                    &idl = store(database, session.idl, digests);
+  run(database,
+      "INSERT INTO sessions (session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, "
+      "config_sha256, seed, software_version, scenario, simulated, idl_sha256, arm, kicker_table, match_id, "
+      "continues_uuid, replays_uuid, paired_halves, planned_s, calibration_id) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+      "?, ?, ?, ?, ?, ?, nullif(?, ''), nullif(?, ''), ?, ?, ?)",
+      session_id, session.uuid, session.robot_id, session.started_t_ns, closed_t_ns,
+      session.simulated_clock ? "simulated" : "steady", session.realtime_offset_ns, config, session.seed,
+      session.software_version, session.scenario, session.simulated, idl, session.arm, session.kicker_table,
+      session.match_id, session.continues_uuid, session.replays_uuid, session.paired_halves, session.planned_s,
+      session.calibration_id);
   insert_lists(database, session, session_id);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -80,7 +81,19 @@ struct Loss {
 
   /// Samples that are not in the log. What the bus reports as lost shows as a gap too, so the larger of the two counts.
   std::int64_t missing() const { return (lost > gaps ? lost : gaps) + overflow + nan_refused + rejected; }
+
+  Loss& operator+=(const Loss& other);
 };
+
+/// Its counters in the order of LossKind.
+inline constexpr std::array kLossCounters{&Loss::lost,        &Loss::gaps,     &Loss::overflow,
+                                          &Loss::nan_refused, &Loss::rejected, &Loss::out_of_order};
+
+inline Loss& Loss::operator+=(const Loss& other) {
+  received += other.received;
+  for (const auto counter : kLossCounters) this->*counter += other.*counter;
+  return *this;
+}
 
 /// A stream of one robot that said nothing for too long; row of table `losses` with counters of 0.
 struct Silence {

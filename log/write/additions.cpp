@@ -9,6 +9,7 @@
 #include "kicking/text/printable.hpp"
 #include "log/file/files_beside.hpp"
 #include "log/file/log_file.hpp"
+#include "log/schema/bind.hpp"
 #include "log/schema/schema.hpp"
 
 namespace trivela::log {
@@ -40,15 +41,6 @@ void check_word(const char* what, const std::array<std::string_view, n>& words, 
     throw BadAddition(fmt::format("{} '{}' is none of {}", what, kicking::printable(word), fmt::join(words, ", ")));
 }
 
-/// A text, or NULL.
-void bind(SQLite::Statement& statement, int place, const std::optional<std::string>& text) {
-  if (text) {
-    statement.bind(place, *text);
-  } else {
-    statement.bind(place);
-  }
-}
-
 }  // namespace
 
 Additions::Additions(const std::filesystem::path& path) : path_(path.string()) {
@@ -66,11 +58,11 @@ Additions::Additions(const std::filesystem::path& path) : path_(path.string()) {
   }
 }
 
-template <class Work>
-void Additions::as_one(const Work& work) {
+template <class... Values>
+void Additions::add_row(const char* sql, const Values&... values) {
   try {
     SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
-    work();
+    run(*database_, sql, values...);
     transaction.commit();
   } catch (const SQLite::Exception& error) {
     throw std::runtime_error(fmt::format("cannot add to the match log {}: {}", path_, error.what()));
@@ -81,41 +73,22 @@ void Additions::add(const Label& label, std::int64_t now_utc_ns) {
   if (label.outcome) check_word("the outcome", kLabels, *label.outcome);
   check_who(label.who);
   check_text("the note", label.note, kLongestText_B);
-  as_one([&] {
-    // Behind what anybody said of the kick in any of its recordings, whatever this machine's clock says.
-    SQLite::Statement insert(
-        *database_,
-        "INSERT INTO main.labels (session_id, robot_id, kick_id, utc_ns, who, t_ns, outcome, note) "
-        "VALUES (?1, ?2, ?3, max(?4, (SELECT coalesce(max(utc_ns) + 1, ?4) FROM main.labels WHERE "
-        "robot_id = ?2 AND kick_id = ?3)), ?5, ?6, ?7, ?8)");
-    insert.bind(1, label.session_id);
-    insert.bind(2, label.robot_id);
-    insert.bind(3, label.kick_id);
-    insert.bind(4, now_utc_ns);
-    insert.bind(5, label.who);
-    insert.bind(6, label.t_ns);
-    bind(insert, 7, label.outcome);
-    insert.bind(8, label.note);
-    insert.exec();
-  });
+  // Behind what anybody said of the kick in any of its recordings, whatever this machine's clock says.
+  add_row(
+      "INSERT INTO main.labels (session_id, robot_id, kick_id, utc_ns, who, t_ns, outcome, note) "
+      "VALUES (?1, ?2, ?3, max(?4, (SELECT coalesce(max(utc_ns) + 1, ?4) FROM main.labels WHERE "
+      "robot_id = ?2 AND kick_id = ?3)), ?5, ?6, ?7, ?8)",
+      label.session_id, label.robot_id, label.kick_id, now_utc_ns, label.who, label.t_ns, label.outcome, label.note);
 }
 
 void Additions::add(const Note& note, std::int64_t now_utc_ns) {
   check_word("the kind of note", kNoteKinds, note.kind);
   check_who(note.who);
   check_text("the note", note.text.value_or(""), kLongestText_B);
-  as_one([&] {
-    SQLite::Statement insert(
-        *database_,
-        "INSERT INTO main.notes (session_id, kind, utc_ns, who, text) VALUES (?1, ?2, max(?3, (SELECT "
-        "coalesce(max(utc_ns) + 1, ?3) FROM main.notes WHERE session_id = ?1 AND kind = ?2)), ?4, ?5)");
-    insert.bind(1, note.session_id);
-    insert.bind(2, note.kind);
-    insert.bind(3, now_utc_ns);
-    insert.bind(4, note.who);
-    bind(insert, 5, note.text);
-    insert.exec();
-  });
+  add_row(
+      "INSERT INTO main.notes (session_id, kind, utc_ns, who, text) VALUES (?1, ?2, max(?3, (SELECT "
+      "coalesce(max(utc_ns) + 1, ?3) FROM main.notes WHERE session_id = ?1 AND kind = ?2)), ?4, ?5)",
+      note.session_id, note.kind, now_utc_ns, note.who, note.text);
 }
 
 }  // namespace trivela::log

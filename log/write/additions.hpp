@@ -68,8 +68,8 @@ class Additions {
   void add(const Note& note, std::int64_t now_utc_ns);
 
  private:
-  template <class Work>
-  void as_one(const Work& work);
+  template <class... Values>
+  void add_row(const char* sql, const Values&... values);
 
   std::string path_;
   std::unique_ptr<SQLite::Database> database_;

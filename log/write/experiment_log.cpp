@@ -13,6 +13,7 @@
 
 #include "log/file/files_beside.hpp"
 #include "log/file/new_file.hpp"
+#include "log/schema/bind.hpp"
 #include "log/schema/digest.hpp"
 #include "log/schema/row_digest.hpp"
 #include "log/schema/schema.hpp"
@@ -34,14 +35,6 @@ std::runtime_error not_written(const fs::path& path, const std::string& what, co
   return std::runtime_error(fmt::format("{}: {} could not be written: {}", path.string(), what, error.what()));
 }
 
-void note_experiment(SQLite::Database& database, const Experiment& experiment) {
-  SQLite::Statement insert(database, "INSERT INTO experiments VALUES (?, ?, ?, 0)");
-  insert.bind(1, sha256(experiment.arguments));
-  insert.bind(2, experiment.arguments);
-  insert.bind(3, experiment.matches);
-  insert.exec();
-}
-
 FileTaken in_use(const fs::path& path) { return taken(path, "another run writes to it"); }
 
 void make(const fs::path& path, const Experiment& experiment) {
@@ -50,7 +43,8 @@ void make(const fs::path& path, const Experiment& experiment) {
       SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
       if (!is_blank(database)) throw FileTaken("another run has begun");
       create_tables(database);
-      note_experiment(database, experiment);
+      run(database, "INSERT INTO experiments VALUES (?, ?, ?, 0)", sha256(experiment.arguments), experiment.arguments,
+          experiment.matches);
       transaction.commit();
     });
   } catch (const FileTaken&) {

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "log/schema/bind.hpp"
 #include "log/schema/digest.hpp"
 #include "log/schema/scan_schema.sql.hpp"
 #include "log/write/scan_log.hpp"
@@ -16,24 +17,19 @@ void create_record(SQLite::Database& database, const std::string& uuid, const Sc
   database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kScanRecord.application_id,
                             kScanRecord.version));
   database.exec(kScanSchemaSql);
-  SQLite::Statement insert(database,
-                           "INSERT INTO sessions (session_id, uuid, started_t_ns, realtime_offset_ns, vendor, product, "
-                           "serial, firmware, protocol, beams, first_angle_rad, step_rad, beam_period_s, "
-                           "scan_period_s, min_range_m, max_range_m, laser_x_m, laser_z_m, front_elevation_rad, "
-                           "mirrored, simulated, source, software_version) "
-                           "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  int place = 0;
-  const auto add = [&](const auto&... values) { (insert.bind(++place, values), ...); };
   const kicking::lob::ScannerIdentity& identity = session.identity;
   const kicking::lob::ScanGeometry& geometry = session.geometry;
   const kicking::lob::LaserMount& mount = session.mount;
-  add(session_id_of(uuid), uuid, session.started_t_ns, session.realtime_offset_ns);
-  add(identity.vendor, identity.product, identity.serial, identity.firmware, identity.protocol);
-  add(static_cast<std::int64_t>(geometry.beams), geometry.first_angle_rad, geometry.step_rad, geometry.beam_period_s,
-      geometry.scan_period_s, geometry.min_range_m, geometry.max_range_m);
-  add(mount.x_m, mount.z_m, mount.front_elevation_rad, mount.mirrored ? 1 : 0);
-  add(session.simulated ? 1 : 0, session.source, session.software_version);
-  insert.exec();
+  run(database,
+      "INSERT INTO sessions (session_id, uuid, started_t_ns, realtime_offset_ns, vendor, product, serial, firmware, "
+      "protocol, beams, first_angle_rad, step_rad, beam_period_s, scan_period_s, min_range_m, max_range_m, laser_x_m, "
+      "laser_z_m, front_elevation_rad, mirrored, simulated, source, software_version) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      session_id_of(uuid), uuid, session.started_t_ns, session.realtime_offset_ns, identity.vendor, identity.product,
+      identity.serial, identity.firmware, identity.protocol, static_cast<std::int64_t>(geometry.beams),
+      geometry.first_angle_rad, geometry.step_rad, geometry.beam_period_s, geometry.scan_period_s, geometry.min_range_m,
+      geometry.max_range_m, mount.x_m, mount.z_m, mount.front_elevation_rad, mount.mirrored, session.simulated,
+      session.source, session.software_version);
   transaction.commit();
 }
 

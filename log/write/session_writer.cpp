@@ -10,6 +10,7 @@
 
 #include "log/file/new_file.hpp"
 #include "log/file/session_tallies.hpp"
+#include "log/schema/bind.hpp"
 #include "log/schema/row_digest.hpp"
 
 namespace trivela::log {
@@ -158,31 +159,16 @@ void SessionWriter::write_losses(const std::vector<Loss>& losses, std::int64_t l
                            "INSERT OR REPLACE INTO losses (session_id, stream, robot_id, from_t_ns, to_t_ns, received, "
                            "lost, gaps, overflow, nan_refused, rejected, out_of_order) "
                            "VALUES (?, ?, 0, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  for (const Loss& loss : losses) {
-    insert.reset();
-    insert.bind(1, session_id_);
-    insert.bind(2, loss.stream);
-    insert.bind(3, started_t_ns_);
-    insert.bind(4, latest_t_ns);
-    insert.bind(5, loss.received);
-    insert.bind(6, loss.lost);
-    insert.bind(7, loss.gaps);
-    insert.bind(8, loss.overflow);
-    insert.bind(9, loss.nan_refused);
-    insert.bind(10, loss.rejected);
-    insert.bind(11, loss.out_of_order);
-    insert.exec();
-  }
+  for (const Loss& loss : losses)
+    run(insert, session_id_, loss.stream, started_t_ns_, latest_t_ns, loss.received, loss.lost, loss.gaps,
+        loss.overflow, loss.nan_refused, loss.rejected, loss.out_of_order);
 }
 
 void SessionWriter::commit_end(const LossCounters& loss_counters, std::optional<std::int64_t> closed_t_ns) {
   SQLite::Transaction transaction(*database_);
   write_losses(loss_counters.all(), latest_t_ns_);
   if (closed_t_ns) {
-    SQLite::Statement close(*database_, "UPDATE sessions SET closed_t_ns = ? WHERE session_id = ?");
-    close.bind(1, *closed_t_ns);
-    close.bind(2, session_id_);
-    close.exec();
+    run(*database_, "UPDATE sessions SET closed_t_ns = ? WHERE session_id = ?", *closed_t_ns, session_id_);
     if (schema_.contains("digests")) RowDigests(*database_).write(session_id_);
     if (schema_.contains("tallied_sessions")) write_tallies(*database_, session_id_);
   }
@@ -199,9 +185,7 @@ std::filesystem::path SessionWriter::write_again() {
   statements_.clear();
   std::filesystem::path path = path_;
   for (int n = 2; std::filesystem::exists(path); ++n) path = beside(path_, fmt::format(".{}", n).c_str());
-  SQLite::Statement copy(*database_, "VACUUM INTO ?");
-  copy.bind(1, path.string());
-  copy.exec();
+  run(*database_, "VACUUM INTO ?", path.string());
   return path;
 }
 

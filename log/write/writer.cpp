@@ -188,7 +188,7 @@ bool Writer::push(TableId table, std::vector<Value> values) {
 
 void Writer::add_loss(std::string_view stream, LossKind kind, std::int64_t n) {
   Loss delta{.stream = std::string(stream)};
-  counter(delta, kind) = n;
+  delta.*kLossCounters.at(static_cast<std::size_t>(kind)) = n;
   impl_->loss_counters.add(delta);
 }
 

@@ -32,7 +32,7 @@ std::string other_columns(SQLite::Database& database, const std::string& table) 
 void copy_session(SQLite::Database& database, std::int64_t session_id, int copy) {
   const std::string uuid = make_uuid();
   const std::int64_t other_id = session_id_of(uuid);
-  for (const DigestedTable& table : digested_tables()) {
+  for (const StreamTable& table : digested_tables()) {
     if (table.name == "sessions") continue;
     const std::string columns = other_columns(database, table.name);
     database.exec(

@@ -6,6 +6,7 @@
 #include "evaluator/counting/log_kicks.hpp"
 #include "evaluator/table2/table2.hpp"
 #include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/report_of_log.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -72,7 +73,9 @@ TEST_F(LabelQualityOfALog, SumsTheDoubtOfTheLabelsByPolicyAndSightings) {
   EXPECT_NEAR(quality.doubts[0].doubt.inside, 0.01, 1e-12);
   EXPECT_NEAR(quality.doubts[1].doubt.inside, 0.04, 1e-12);
   EXPECT_NEAR(quality.doubts[1].doubt.outside, 0.03, 1e-12);
-  EXPECT_NEAR(quality.expected_wrong(), 0.08, 1e-12);
+  double expected_wrong = 0.0;
+  for (const SightingsRow& row : quality.rows) expected_wrong += row.expected_wrong;
+  EXPECT_NEAR(expected_wrong, 0.08, 1e-12);
   ASSERT_THAT(quality.rows, SizeIs(5));
   EXPECT_EQ(quality.rows[2].kicks, 2) << "5 to 9";
   EXPECT_EQ(quality.rows[2].unknown, 1);

@@ -17,6 +17,7 @@
 #include "log/merge/merge.hpp"
 #include "log/write/additions.hpp"
 #include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/report_of_log.hpp"
 
 namespace trivela::evaluator {
 namespace {

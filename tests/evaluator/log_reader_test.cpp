@@ -110,8 +110,8 @@ TEST_F(LogReader, UnknownTablesAndColumnsAreNamed) {
   write_log();
   const Reader reader(path());
   const auto nothing = [](std::span<const Value>) {};
-  EXPECT_THROW(reader.for_each_row("wheels", {"seq"}, nothing), std::runtime_error);
-  EXPECT_THROW(reader.for_each_row("referee", {"whistle"}, nothing), std::runtime_error);
+  EXPECT_THROW(reader.for_each_row_between("wheels", {"seq"}, {}, nothing), std::runtime_error);
+  EXPECT_THROW(reader.for_each_row_between("referee", {"whistle"}, {}, nothing), std::runtime_error);
   EXPECT_THROW(reader.query("SELECT whistle FROM referee", nothing), std::runtime_error);
 }
 

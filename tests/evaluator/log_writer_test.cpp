@@ -29,7 +29,7 @@ using LogWriter = LogTest;
 
 int drives_in(const std::filesystem::path& log) {
   int rows = 0;
-  Reader(log).for_each_row("drive_commands", {"vx_mps"}, [&](std::span<const Value>) { ++rows; });
+  Reader(log).query("SELECT vx_mps FROM drive_commands", [&](double) { ++rows; });
   return rows;
 }
 
@@ -42,8 +42,8 @@ TEST_F(LogWriter, WritesRowsThatAreReadBackInOrder) {
     EXPECT_EQ(writer.stats().rows_written, 3);
   }
   std::vector<double> speeds;
-  Reader(path()).for_each_row("drive_commands", {"vx_mps"},
-                              [&](std::span<const Value> row) { speeds.push_back(std::get<double>(row[0])); });
+  Reader(path()).query("SELECT vx_mps FROM drive_commands ORDER BY session_id, robot_id, seq",
+                       [&](double vx_mps) { speeds.push_back(vx_mps); });
   EXPECT_THAT(speeds, ElementsAre(0.5, 1.0, 1.5));
   EXPECT_THAT(warnings_, IsEmpty());
 }
@@ -108,7 +108,7 @@ TEST_F(LogWriter, FinaliseWhileSomebodyReadsKeepsEverything) {
   writer->flush();
   const Reader early(path());
   std::int64_t seen = 0;
-  early.for_each_row("referee", {"seq"}, [&](std::span<const Value>) {  // holds its snapshot meanwhile
+  early.query("SELECT seq FROM referee", [&](std::int64_t) {  // holds its snapshot meanwhile
     writer->finalise();
     ++seen;
   });
@@ -137,7 +137,7 @@ TEST_F(LogWriter, NanIsNullWhereTheMessageMayHaveNone) {
     writer.push(flight, {Int{1}, Int{1}, Int{20}, Int{10}, Int{0}, kNan, kNan, std::monostate{}});
   }
   int nulls = 0;
-  Reader(path()).for_each_row("flight_frames", {"ball_x_m", "ball_z_m"}, [&](std::span<const Value> row) {
+  Reader(path()).query("SELECT ball_x_m, ball_z_m FROM flight_frames", [&](std::span<const Value> row) {
     for (const Value& value : row) nulls += std::holds_alternative<std::monostate>(value) ? 1 : 0;
   });
   EXPECT_EQ(nulls, 2);

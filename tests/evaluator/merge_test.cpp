@@ -13,6 +13,7 @@
 #include "log/schema/row_digest.hpp"
 #include "log/write/additions.hpp"
 #include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/report_of_log.hpp"
 
 namespace trivela::evaluator {
 namespace {

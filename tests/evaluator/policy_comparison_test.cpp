@@ -10,6 +10,7 @@
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 #include "tests/evaluator/random_numbers.hpp"
+#include "tests/evaluator/report_of_log.hpp"
 
 namespace trivela::evaluator {
 namespace {

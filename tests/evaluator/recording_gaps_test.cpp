@@ -6,6 +6,7 @@
 
 #include "evaluator/table2/table2.hpp"
 #include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/report_of_log.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/report_of_log.hpp"
 #include "tests/evaluator/watched_log.hpp"
 
 namespace trivela::evaluator::page {

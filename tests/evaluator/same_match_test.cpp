@@ -13,6 +13,7 @@
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 #include "tests/evaluator/merged_log.hpp"
+#include "tests/evaluator/report_of_log.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -10,6 +10,7 @@
 #include "log/merge/merge.hpp"
 #include "log/schema/row_digest.hpp"
 #include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/report_of_log.hpp"
 
 namespace trivela::evaluator {
 namespace {

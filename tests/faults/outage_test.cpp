@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "evaluator/table2/table2.hpp"
+#include "tests/evaluator/report_of_log.hpp"
 #include "tests/faults/stack.hpp"
 #include "tests/support/folder.hpp"
 

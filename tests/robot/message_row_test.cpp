@@ -1,5 +1,6 @@
 #include "robot/recording/message_row.hpp"
 
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -198,9 +199,9 @@ TEST_F(MessageRowTest, ADecisionComesBackAsItWasWritten) {
   log.finalise();
   const log::Reader reader{path()};
   int rows = 0;
-  reader.for_each_row("kick_decisions", columns_of<msg::KickDecision>(), [&](std::span<const Value> row) {
+  const auto columns = columns_of<msg::KickDecision>();
+  reader.query(fmt::format("SELECT {} FROM kick_decisions", fmt::join(columns, ", ")), [&](std::span<const Value> row) {
     ++rows;
-    const auto columns = columns_of<msg::KickDecision>();
     for (std::size_t i = 0; i < row.size(); ++i) {
       const auto* number = std::get_if<double>(&written[i]);
       if (number != nullptr && std::isnan(*number)) {

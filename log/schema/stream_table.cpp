@@ -1,4 +1,4 @@
-#include "log/read/stream_table.hpp"
+#include "log/schema/stream_table.hpp"
 
 #include <algorithm>
 #include <regex>
