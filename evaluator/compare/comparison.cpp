@@ -1,6 +1,7 @@
 #include "evaluator/compare/comparison.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 #include "evaluator/compare/policy_comparison.hpp"
@@ -30,19 +31,8 @@ bool Comparison::is_table2() const {
 }
 
 const char* label(stats::Verdict verdict) {
-  switch (verdict) {
-    case stats::Verdict::kBetter:
-      return "better";
-    case stats::Verdict::kBetterMaybeTooSmall:
-      return "better, maybe too small";
-    case stats::Verdict::kEquivalent:
-      return "equivalent";
-    case stats::Verdict::kWorse:
-      return "worse";
-    case stats::Verdict::kNotEnoughData:
-      return "not enough data";
-  }
-  return "";
+  constexpr std::array kLabels{"better", "better, maybe too small", "equivalent", "worse", "not enough data"};
+  return kLabels.at(static_cast<std::size_t>(verdict));
 }
 
 Comparison compare(const NamedCounts& older, const NamedCounts& newer, double smallest_effect) {

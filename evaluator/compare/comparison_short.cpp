@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/render/text_table.hpp"
@@ -14,56 +15,31 @@ namespace {
 constexpr std::size_t kMostDifferences = 10;
 constexpr std::size_t kMostRemarks = 3;
 
-/// Two groups and what is known of their difference.
-struct ShortVerdict {
-  std::string older;
-  std::string newer;
-  bool causal = false;  ///< the design says whose the difference is
-  stats::Verdict verdict{};
-  std::string measure;
-  double difference = 0.0;
-  stats::Interval ci;
-  double p = 1.0;
-  std::size_t comparisons = 1;  ///< that p is adjusted for
-  double smallest_effect = 0.0;
-  const char* unit = "kicks";
-  double more = 0.0;  ///< of the group that has fewer, to see the smallest effect
-};
-
-std::string who_is_better(const ShortVerdict& v) {
-  switch (v.verdict) {
+std::string who_is_better(const PairResult& pair, double smallest_effect) {
+  const bool causal = pair.design != Design::kBeforeAfter;  // the design says whose the difference is
+  switch (pair.headline->verdict) {
     case stats::Verdict::kBetter:
     case stats::Verdict::kBetterMaybeTooSmall:
-      return v.causal ? fmt::format("{} is better than {}", v.newer, v.older)
-                      : fmt::format("{} differs from {}", v.newer, v.older);
+      return fmt::format("{} {} {}", pair.newer, causal ? "is better than" : "differs from", pair.older);
     case stats::Verdict::kWorse:
-      return v.causal ? fmt::format("{} is worse than {}", v.newer, v.older)
-                      : fmt::format("{} differs from {}", v.newer, v.older);
+      return fmt::format("{} {} {}", pair.newer, causal ? "is worse than" : "differs from", pair.older);
     case stats::Verdict::kEquivalent:
-      return fmt::format("{} and {} are alike within {:.1f} points", v.newer, v.older, 100.0 * v.smallest_effect);
+      return fmt::format("{} and {} are alike within {:.1f} points", pair.newer, pair.older, 100.0 * smallest_effect);
     case stats::Verdict::kNotEnoughData:
       break;
   }
-  return fmt::format("{} against {}, not enough data", v.newer, v.older);
+  return fmt::format("{} against {}, not enough data", pair.newer, pair.older);
 }
 
-std::string more_needed(const ShortVerdict& v) {
-  const bool open = v.verdict == stats::Verdict::kNotEnoughData || v.verdict == stats::Verdict::kBetterMaybeTooSmall;
-  const double more = std::ceil(v.more);
-  if (!open || more <= 0.0) return fmt::format("no more {} needed", v.unit);
-  return fmt::format("about {:.0f} more {} of the one with fewer for {:.1f} points", more, v.unit,
-                     100.0 * v.smallest_effect);
-}
-
-// Who is better, by how much, how sure, how many more are needed.
-std::string short_line(const ShortVerdict& v) {
-  return fmt::format("{}: {:+.1f} points {}, 95 % {}, p {}{}; {}\n", who_is_better(v), 100.0 * v.difference, v.measure,
-                     points(v.ci), p_value(v.p),
-                     v.comparisons > 1 ? fmt::format(" (Holm, {} comparisons)", v.comparisons) : "", more_needed(v));
-}
-
-double missing(double needed_of_each, stats::Counts older, stats::Counts newer) {
-  return needed_of_each - static_cast<double>(std::min(older.n, newer.n));
+std::string more_needed(const PairResult& pair, double smallest_effect) {
+  const Headline& h = *pair.headline;
+  const Effect& effect = h.of_opportunities ? *pair.per_opportunity : *pair.efficiency;
+  const char* const unit = h.of_opportunities ? "opportunities" : "kicks";
+  const bool open = h.verdict == stats::Verdict::kNotEnoughData || h.verdict == stats::Verdict::kBetterMaybeTooSmall;
+  const double more = std::ceil(h.needed_for_smallest - static_cast<double>(std::min(effect.older.n, effect.newer.n)));
+  if (!open || more <= 0.0) return fmt::format("no more {} needed", unit);
+  return fmt::format("about {:.0f} more {} of the one with fewer for {:.1f} points", more, unit,
+                     100.0 * smallest_effect);
 }
 
 std::string goals_line(const PairResult& pair) {
@@ -90,21 +66,11 @@ std::string remarks_of(const PolicyComparison& c) {
 std::string short_line_of(const PairResult& pair, const PolicyComparison& c, std::size_t comparisons) {
   if (!pair.headline) return fmt::format("{} against {}: {}\n", pair.newer, pair.older, pair.why_none);
   const Headline& h = *pair.headline;
-  const Effect& effect = h.of_opportunities ? *pair.per_opportunity : *pair.efficiency;
-  return short_line(
-      {.older = pair.older,
-       .newer = pair.newer,
-       .causal = pair.design != Design::kBeforeAfter,
-       .verdict = h.verdict,
-       .measure = std::string(h.of_opportunities ? "in shots on target an opportunity" : "in efficiency") +
-                  (h.adjusted ? " on the same mix of " + c.dataset.stratified_by : ""),
-       .difference = h.difference,
-       .ci = h.ci,
-       .p = h.p_holm,
-       .comparisons = comparisons,
-       .smallest_effect = c.smallest_effect,
-       .unit = h.of_opportunities ? "opportunities" : "kicks",
-       .more = missing(h.needed_for_smallest, effect.older, effect.newer)});
+  return fmt::format("{}: {:+.1f} points {}{}, 95 % {}, p {}{}; {}\n", who_is_better(pair, c.smallest_effect),
+                     100.0 * h.difference, h.of_opportunities ? "in shots on target an opportunity" : "in efficiency",
+                     h.adjusted ? " on the same mix of " + c.dataset.stratified_by : "", points(h.ci),
+                     p_value(h.p_holm), comparisons > 1 ? fmt::format(" (Holm, {} comparisons)", comparisons) : "",
+                     more_needed(pair, c.smallest_effect));
 }
 
 std::string gates_text(std::span<const GateResult> gates) {
@@ -140,16 +106,19 @@ std::string to_short_text(const PolicyComparison& c) {
 }
 
 std::string to_short_text(const Comparison& c) {
-  const double p = c.boschloo_two_sided_p.value_or(c.fisher_two_sided_p);
-  return short_line({.older = c.older.name,
-                     .newer = c.newer.name,
-                     .verdict = c.verdict,
-                     .measure = "in efficiency",
-                     .difference = c.difference,
-                     .ci = c.newcombe95,
-                     .p = p,
-                     .smallest_effect = c.smallest_effect,
-                     .more = missing(c.needed_for_smallest, c.older.counts, c.newer.counts)}) +
+  PairResult pair;
+  std::tie(pair.older, pair.newer) = std::tie(c.older.name, c.newer.name);
+  Effect& efficiency = pair.efficiency.emplace();
+  std::tie(efficiency.older, efficiency.newer) = std::tie(c.older.counts, c.newer.counts);
+  Headline& headline = pair.headline.emplace();
+  headline.difference = c.difference;
+  headline.ci = c.newcombe95;
+  headline.p_holm = c.boschloo_two_sided_p.value_or(c.fisher_two_sided_p);
+  headline.verdict = c.verdict;
+  headline.needed_for_smallest = c.needed_for_smallest;
+  PolicyComparison alone;
+  alone.smallest_effect = c.smallest_effect;
+  return short_line_of(pair, alone, 1) +
          "  by the counts alone, kicks taken as independent; every test and what to be careful about: --all\n" +
          gates_text(c.gates);
 }

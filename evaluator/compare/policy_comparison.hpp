@@ -69,7 +69,7 @@ struct Stratified {
   std::optional<stats::Standardised> standardised;
   std::optional<stats::Clustered> clustered;  ///< of the standardised difference
   std::optional<stats::ChiSquare> homogeneity;
-  bool simpson = false;
+  bool simpson = false;  ///< the crude difference and the standardised one have opposite signs
 };
 
 /// What the verdict rests on.

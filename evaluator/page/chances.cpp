@@ -14,8 +14,7 @@ namespace trivela::evaluator::page {
 std::string rates_section(const PageView& view) {
   const auto& policies = view.report.policies;
   const auto known = [](const PolicyRow& row) { return row.played_min && *row.played_min > 0.0; };
-  if (std::ranges::none_of(policies, known))
-    return section("rates", "How often a minute", paragraphs({"How long was played is not in the log."}));
+  if (std::ranges::none_of(policies, known)) return paragraphs({"How long was played is not in the log."});
   IntervalPlot plot{.head = {.id = "rates-figure",
                              .says = "Chances, kicks and shots on target a minute of play",
                              .simulated = view.simulated},
@@ -50,9 +49,7 @@ std::string rates_section(const PageView& view) {
   }
   rows_of("kicks", [](const PolicyRow& row) { return std::optional(row.kicks()); });
   rows_of("on target", [](const PolicyRow& row) { return std::optional(row.inside()); });
-  std::string body = interval_plot(plot);
-  if (chances.empty()) body += paragraphs({"Nobody counted chances in these logs."});
-  return section("rates", "How often a minute", body);
+  return interval_plot(plot) + (chances.empty() ? paragraphs({"Nobody counted chances in these logs."}) : "");
 }
 
 namespace {
@@ -147,23 +144,20 @@ std::vector<std::string> cost_sentences(const std::vector<HeldChance>& chances) 
 }  // namespace
 
 std::string held_section(const PageView& view) {
-  const std::string title = "Why held";
   std::vector<HeldReason> rows;
   std::ranges::copy_if(view.data.held, std::back_inserter(rows), [](const HeldReason& row) { return !is_idle(row); });
-  if (rows.empty()) {
-    return section("held", title,
-                   paragraphs({"The log has no decision that held: it keeps the kicks alone, or they were imported."}));
-  }
-  std::string body = bars(view, rows);
-  body += shadow_table(rows, view.data.shadows);
+  if (rows.empty())
+    return paragraphs({"The log has no decision that held: it keeps the kicks alone, or they were imported."});
+  std::string body = bars(view, rows) + shadow_table(rows, view.data.shadows);
   if (const std::string idle = idle_sentence(view.data.held); !idle.empty()) body += paragraphs({idle});
   body += paragraphs(cost_sentences(view.data.held_chances));
-  body += paragraphs(
-      {view.data.shadows.empty()
-           ? "No other policy rode along."
-           : "A shadow policy judges the same cycle and orders nothing. It would have kicked once and held no more: "
-             "where it would have kicked is counted by possession. What its kick would have become nobody knows."});
-  return section("held", title, body);
+  return body +
+         paragraphs(
+             {view.data.shadows.empty()
+                  ? "No other policy rode along."
+                  : "A shadow policy judges the same cycle and orders nothing. It would have kicked once and held no "
+                    "more: where it would have kicked is counted by possession. What its kick would have become "
+                    "nobody knows."});
 }
 
 }  // namespace trivela::evaluator::page

@@ -4,46 +4,17 @@
 
 #include <array>
 
+#include "evaluator/render/text_table.hpp"
 #include "kicking/text/printable.hpp"
 #include "log/schema/digest.hpp"
 
 namespace trivela::evaluator::page {
 
-std::string html(std::string_view text) {
-  std::string out;
-  for (const char c : kicking::printable(text)) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
+std::string html(std::string_view text) { return xml_text(kicking::printable(text), true); }
 
 std::string script_json(const Json& json) {
   std::string out;
-  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      out += "\\u003c";
-    } else {
-      out += c;
-    }
-  }
+  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) c == '<' ? out += "\\u003c" : out += c;
   return out;
 }
 
@@ -91,17 +62,11 @@ std::string counted(std::int64_t n, const std::string& one, const std::string& m
 }
 
 std::string csp_hash(const std::string& text) {
-  static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   const std::string hex = log::sha256(text);
-  std::array<unsigned, 33> bytes{};  // 32 and one of 0 for the last group
-  for (std::size_t i = 0; i < 32; ++i) bytes[i] = static_cast<unsigned>(std::stoul(hex.substr(2 * i, 2), nullptr, 16));
-  std::string base64;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const unsigned group = bytes[i] << 16 | bytes[i + 1] << 8 | bytes[i + 2];
-    for (const unsigned shift : {18U, 12U, 6U, 0U}) base64 += kDigits[group >> shift & 63U];
-  }
-  base64.back() = '=';
-  return "'sha256-" + base64 + "'";
+  std::array<unsigned char, 32> bytes{};
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    bytes[i] = static_cast<unsigned char>(std::stoul(hex.substr(2 * i, 2), nullptr, 16));
+  return "'sha256-" + log::base64(bytes) + "'";
 }
 
 }  // namespace trivela::evaluator::page

@@ -1,3 +1,4 @@
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -94,11 +95,8 @@ std::string list(const std::vector<PageKick>& kicks, bool several_logs, bool rep
 
 std::string instant_text(const KickTimeline& timeline) {
   if (timeline.utc_ns < kFirstUtc_ns) return fmt::format("{:+.2f} s", kicking::seconds(timeline.t_ns));
-  const std::time_t second = timeline.utc_ns / 1'000'000'000;
-  std::tm utc{};
-  if (gmtime_r(&second, &utc) == nullptr) return "–";
-  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02}.{:02}", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
-                     utc.tm_hour, utc.tm_min, utc.tm_sec, timeline.utc_ns / 10'000'000 % 100);
+  return fmt::format("{:%Y-%m-%d %H:%M:%S}.{:02}", fmt::gmtime(std::time_t{timeline.utc_ns / 1'000'000'000}),
+                     timeline.utc_ns / 10'000'000 % 100);
 }
 
 std::string match_time_text(const KickTimeline& timeline) {
@@ -109,14 +107,12 @@ std::string match_time_text(const KickTimeline& timeline) {
 
 std::string kick_list_section(const PageView& view) {
   const auto& kicks = view.data.kicks;
-  if (kicks.empty()) return section("list", "Kicks", paragraphs({"There are no kicks."}));
-  if (view.data.binned()) {
-    return section(
-        "list", "Kicks",
-        paragraphs({fmt::format("{} kicks are too many for a list: a page lists up to {}. trivela query LOG --metric "
-                                "listed_kicks --csv has them all, and a report of one match has its replays.",
-                                kicks.size(), kMostKicks)}));
-  }
+  if (kicks.empty()) return paragraphs({"There are no kicks."});
+  if (view.data.binned())
+    return paragraphs(
+        {fmt::format("{} kicks are too many for a list: a page lists up to {}. trivela query LOG --metric "
+                     "listed_kicks --csv has them all, and a report of one match has its replays.",
+                     kicks.size(), kMostKicks)});
   const bool replays = kicks.size() <= kMostReplays;
   std::vector<std::string> notes{
       "x is to the right of the goal's middle, z the height of the ball's centre, both where it crosses the goal line. "
@@ -134,7 +130,7 @@ std::string kick_list_section(const PageView& view) {
   body += list(kicks, view.data.logs.size() > 1, replays) + paragraphs(notes);
   if (replays)
     body += "<noscript><p>Filter and replay need JavaScript; everything else on this page does not.</p></noscript>\n";
-  return section("list", "Kicks", body);
+  return body;
 }
 
 }  // namespace trivela::evaluator::page

@@ -73,10 +73,8 @@ std::string unchanged_item(const RobotDrift& robot) {
 }  // namespace
 
 std::string drift_section(const PageView& view) {
-  const char* const title = "Is a kicker drifting?";
   const auto& robots = view.data.drift.robots;
-  if (robots.empty())
-    return section("drift", title, paragraphs({"There is no kick that the kicker's driver accepted."}));
+  if (robots.empty()) return paragraphs({"There is no kick that the kicker's driver accepted."});
   const LinkedKicks places(view.data);
   std::string changed, same;
   std::size_t without = 0;
@@ -86,12 +84,9 @@ std::string drift_section(const PageView& view) {
   }
   if (without > kMostUnchanged)
     same += fmt::format("<li>and {} more without a change</li>\n", without - kMostUnchanged);
-  const std::string body = "<ul>\n" + changed + same + "</ul>\n";
-  return section(
-      "drift", title,
-      body + paragraphs({"Crossing heights and exit speeds against what the robot itself predicted, kick by "
-                         "kick; trivela drift LOG says the same. About once in 2,000 kicks a change is found "
-                         "where there was none."}));
+  return "<ul>\n" + changed + same + "</ul>\n" +
+         paragraphs({"Crossing heights and exit speeds against what the robot itself predicted, kick by kick; trivela "
+                     "drift LOG says the same. About once in 2,000 kicks a change is found where there was none."});
 }
 
 namespace {
@@ -158,12 +153,9 @@ std::string steps_table(const LearnedKicker& kicker) {
 }  // namespace
 
 std::string learning_section(const PageView& view) {
-  const char* const title = "What kicks show of the kickers";
   const auto& kickers = view.report.kickers;
   if (kickers.empty())
-    return section(
-        "learning", title,
-        paragraphs({"No kick was learned from: [self_calibration] was off, or no goal camera saw a flight."}));
+    return paragraphs({"No kick was learned from: [self_calibration] was off, or no goal camera saw a flight."});
   std::string body = paragraphs({"Differences of each kicker from its robot's file, as its own kicks show them."});
   for (std::size_t i = 0; i < std::min(kMostCourses, kickers.size()); ++i) {
     body += list_of(kickers[i].sentences());
@@ -173,7 +165,7 @@ std::string learning_section(const PageView& view) {
   if (kickers.size() > kMostCourses)
     body += paragraphs(
         {fmt::format("And {} more: trivela query LOG --metric kicker_updates.", kickers.size() - kMostCourses)});
-  return section("learning", title, body);
+  return body;
 }
 
 }  // namespace trivela::evaluator::page

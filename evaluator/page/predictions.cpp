@@ -185,7 +185,7 @@ std::string prediction_section(const PageView& view) {
     body += "<h3>Probability of a goal past the keeper</h3>\n";
     body += reliability_figure(view, view.data.predicted_goals, "goal-reliability-figure", "goal");
   }
-  return section("predictions", "Predicted and observed", body);
+  return body;
 }
 
 }  // namespace trivela::evaluator::page

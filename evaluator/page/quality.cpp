@@ -114,8 +114,8 @@ std::string quality_section(const PageView& view) {
   std::string body = list_of(warnings);
   if (!report.doubt && report.verified_rows > 0)
     body += paragraphs({fmt::format("Verified: {} rows are as they were recorded.", report.verified_rows)});
-  body += missing(report) + bounds(report) + orders(report) + clocks(view.data) + sessions(report) + inputs(view.data);
-  return section("quality", "Data quality", body);
+  return body + missing(report) + bounds(report) + orders(report) + clocks(view.data) + sessions(report) +
+         inputs(view.data);
 }
 
 }  // namespace trivela::evaluator::page

@@ -11,7 +11,6 @@
 #include "evaluator/page/page.js.hpp"
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/timeline/decided_again.hpp"
-#include "evaluator/timeline/replay.hpp"
 
 namespace trivela::evaluator::page {
 namespace {
@@ -40,12 +39,10 @@ constexpr std::array<PagePart, 14> kParts{
      {"quality", "Data quality", quality_section}}};
 
 /// What goes wrong in a section costs that section alone.
-std::string guarded(const PagePart& part, const PageView& view) {
-  try {
-    return part.make(view);
-  } catch (const std::exception& error) {
-    return section(part.id, part.title, paragraphs({fmt::format("This section could not be made: {}", error.what())}));
-  }
+std::string guarded(const PagePart& part, const PageView& view) try {
+  return section(part.id, part.title, part.make(view));
+} catch (const std::exception& error) {
+  return section(part.id, part.title, paragraphs({fmt::format("This section could not be made: {}", error.what())}));
 }
 
 std::string title_of(const PageData& data) {
@@ -129,7 +126,7 @@ std::string decided_again_section(const PageView& view) {
     if (!again.orders.empty())
       body += table("What was ordered in a possession, and what would have been", table_of(again));
   }
-  return section("again", "Decided again", body);
+  return body;
 }
 
 std::string verdict_section(const PageView& view) {
@@ -149,9 +146,8 @@ std::string verdict_section(const PageView& view) {
   notes.emplace_back(
       "On target means between the posts and below the bar, saves included: it is not goals scored. An interval of 95 "
       "% is where the true value lies in 95 of 100 such reports, if kicks are alike and nothing else changed.");
-  std::string body = "<div class=\"verdict\">\n" + paragraphs(verdicts) + "</div>\n";
-  body += "<div class=\"caveat\">\n" + paragraphs(notes) + "</div>\n";
-  return section("verdict", "Verdict", body);
+  return "<div class=\"verdict\">\n" + paragraphs(verdicts) + "</div>\n<div class=\"caveat\">\n" + paragraphs(notes) +
+         "</div>\n";
 }
 
 std::string table2_section(const PageView& view) {
@@ -160,7 +156,7 @@ std::string table2_section(const PageView& view) {
     if (!part.table.empty()) body += table(part.title + (view.simulated ? " (simulated)" : ""), part.table);
     body += list_of(part.notes);
   }
-  return section("table2", "Table 2", body);
+  return body;
 }
 
 std::size_t colour_of(const PageView& view, const std::string& policy) {
@@ -192,8 +188,7 @@ std::string changes_of(const LogChange& change, const PageData& data) {
 std::string changes_section(const PageView& view) {
   std::string body;
   for (const LogChange& change : view.data.changes) body += changes_of(change, view.data);
-  if (body.empty()) body = paragraphs({"The logs' configurations could not be compared."});
-  return section("changes", "What changed since the log before", body);
+  return body.empty() ? paragraphs({"The logs' configurations could not be compared."}) : body;
 }
 
 }  // namespace trivela::evaluator::page

@@ -18,7 +18,7 @@ struct PageView {
   bool simulated = false;  ///< some of it
 };
 
-// Each section of the page as HTML, from plain data. One whose stream is missing says so in a sentence.
+// Each section of the page below its title, as HTML. One whose stream is missing says so in a sentence.
 
 /// The verdict on the policies, the design behind it and its caveat.
 std::string verdict_section(const PageView& view);

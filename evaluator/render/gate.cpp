@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -15,11 +14,17 @@
 namespace trivela::evaluator {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Relation>, 5> kRelations{{{">=", Relation::kAtLeast},
-                                                                           {"<=", Relation::kAtMost},
-                                                                           {"==", Relation::kEqual},
-                                                                           {">", Relation::kAbove},
-                                                                           {"<", Relation::kBelow}}};
+struct Sign {
+  std::string_view text;
+  Relation relation;
+  bool (*holds)(double value, double bound);
+};
+
+constexpr Sign kSigns[] = {{">=", Relation::kAtLeast, [](double value, double bound) { return value >= bound; }},
+                           {"<=", Relation::kAtMost, [](double value, double bound) { return value <= bound; }},
+                           {"==", Relation::kEqual, [](double value, double bound) { return value == bound; }},
+                           {">", Relation::kAbove, [](double value, double bound) { return value > bound; }},
+                           {"<", Relation::kBelow, [](double value, double bound) { return value < bound; }}};
 
 /// Reads a gate from left to right.
 class GateText {
@@ -119,10 +124,10 @@ class GateText {
 
   void read_relation() {
     skip_blanks();
-    for (const auto& [sign, relation] : kRelations) {
-      if (!rest().starts_with(sign)) continue;
-      gate_.relation = relation;
-      at_ += sign.size();
+    for (const Sign& sign : kSigns) {
+      if (!rest().starts_with(sign.text)) continue;
+      gate_.relation = sign.relation;
+      at_ += sign.text.size();
       return;
     }
     fail(at_, "one of >= <= > < == is missing");
@@ -151,19 +156,7 @@ class GateText {
 }  // namespace
 
 bool Gate::passes(double value) const {
-  switch (relation) {
-    case Relation::kAtLeast:
-      return value >= bound;
-    case Relation::kAtMost:
-      return value <= bound;
-    case Relation::kAbove:
-      return value > bound;
-    case Relation::kBelow:
-      return value < bound;
-    case Relation::kEqual:
-      return value == bound;
-  }
-  return false;
+  return std::ranges::find(kSigns, relation, &Sign::relation)->holds(value, bound);
 }
 
 Gate parse_gate(const std::string& text, const GateMetrics& known) { return GateText(text, known).read(); }

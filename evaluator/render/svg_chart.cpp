@@ -111,22 +111,6 @@ std::string legend(const Chart& chart, double x0) {
   return svg;
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 std::string style() {
   std::string light =
       "text{font:14px sans-serif;fill:#222}\n.title{font-size:17px;font-weight:600}\n.paper{fill:#fff}\n"
@@ -194,12 +178,12 @@ std::string svg_head(double width, double height, const std::string& title, cons
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
       "height=\"{1:.0f}\">\n<title>{2}</title>\n<style>\n{3}{4}</style>\n"
       "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n",
-      width, height, escaped(title), style(), more_style);
+      width, height, xml_text(title, false), style(), more_style);
 }
 
 std::string svg_text(double x, double y, const char* anchor, const std::string& words, const std::string& more) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
-                     escaped(words));
+                     xml_text(words, false));
 }
 
 std::string svg_line(const std::string& kind, double x1, double y1, double x2, double y2) {

@@ -39,6 +39,9 @@ constexpr std::string_view kMarkup = "\\`*_{}[]|~$#";
 // Characters that a backslash does not keep from being a link, a mention or an entity.
 constexpr std::array kMarkdown{Pair{'&', "&amp;"}, Pair{'<', "&lt;"}, Pair{'>', "&gt;"}, Pair{'@', "&#64;"}};
 
+constexpr std::array kXml{Pair{'<', "&lt;"}, Pair{'>', "&gt;"}, Pair{'&', "&amp;"}, Pair{'"', "&quot;"},
+                          Pair{'\'', "&#39;"}};
+
 std::string_view replaced(const auto& pairs, char c) {
   for (const auto& [from, to] : pairs)
     if (c == from) return to;
@@ -131,6 +134,16 @@ std::string latex_text(std::string_view text) {
     command.empty() ? line += c : line += command;
   }
   return line;
+}
+
+std::string xml_text(std::string_view text, bool quotes) {
+  std::string out;
+  for (const char c : text) {
+    const bool stays = !quotes && (c == '"' || c == '\'');
+    const std::string_view entity = stays ? "" : replaced(kXml, c);
+    entity.empty() ? out += c : out += entity;
+  }
+  return out;
 }
 
 std::string csv_text(std::string_view text) {

@@ -115,34 +115,38 @@ std::string found_by(const std::exception& error) {
   return refused ? refused->found() : error.what();
 }
 
+void look_at_clocks(const log::Reader& reader, Findings& findings) {
+  for (LogFinding& found : clock_findings(reader)) findings.push_back(std::move(found));
+}
+
+struct Look {
+  const char* check;
+  void (*look_at)(const log::Reader& reader, Findings& findings);
+};
+constexpr Look kLooks[] = {{"sessions", look_at_sessions},
+                           {"rows", look_for_gaps},
+                           {"length", look_at_lengths},
+                           {"goal line", look_at_goal},
+                           {"clock", look_at_clocks}};
+
 /// What reading says where it fails is a finding like any other.
-template <class Look>
-void look(const char* check, const Look& look_at, Findings& findings) {
-  try {
-    look_at();
-  } catch (const std::exception& error) {
-    findings.push_back({check, Health::kBad, found_by(error), "trivela merge NEW.db LOG takes what can be read"});
-  }
+void look(const Look& at, const log::Reader& reader, Findings& findings) try {
+  at.look_at(reader, findings);
+} catch (const std::exception& error) {
+  findings.push_back({at.check, Health::kBad, found_by(error), "trivela merge NEW.db LOG takes what can be read"});
 }
 
 /// What to do about a file that does not open.
 std::string advice_on(log::Refused why) {
-  switch (why) {
-    case log::Refused::kNoLog:
-      return "match logs are SQLite files that a recorder or trivela simulate has written";
-    case log::Refused::kEmpty:
-      return "nothing is in it; copy it again if it was copied";
-    case log::Refused::kOtherVersion:
-      return "read it with the Trivela that wrote it";
-    case log::Refused::kForeignIndex:
-      return "drop the index; labels and notes need none";
-    case log::Refused::kWrongCounts:
-      return "trivela merge NEW.db LOG counts them again";
-    case log::Refused::kDamaged:
-      break;
-  }
-  return "trivela merge NEW.db LOG takes what can be read, other recorders' logs the rest; copy the file again if it "
-         "was copied";
+  constexpr std::array kAdvice{
+      "match logs are SQLite files that a recorder or trivela simulate has written",
+      "nothing is in it; copy it again if it was copied",
+      "read it with the Trivela that wrote it",
+      "drop the index; labels and notes need none",
+      "trivela merge NEW.db LOG counts them again",
+      "trivela merge NEW.db LOG takes what can be read, other recorders' logs the rest; copy the file again if it was "
+      "copied"};  // in the order of Refused
+  return kAdvice.at(static_cast<std::size_t>(why));
 }
 
 }  // namespace
@@ -157,20 +161,7 @@ std::vector<LogFinding> examine_log(const fs::path& path) {
                         doubt ? *doubt : fmt::format("{} rows are as they were recorded", reader.verification().rows),
                         ""});
     look_at_wal(path, reader.wal(), findings);
-    look(
-        "sessions", [&] { look_at_sessions(reader, findings); }, findings);
-    look(
-        "rows", [&] { look_for_gaps(reader, findings); }, findings);
-    look(
-        "length", [&] { look_at_lengths(reader, findings); }, findings);
-    look(
-        "goal line", [&] { look_at_goal(reader, findings); }, findings);
-    look(
-        "clock",
-        [&] {
-          for (LogFinding& found : clock_findings(reader)) findings.push_back(std::move(found));
-        },
-        findings);
+    for (const Look& each : kLooks) look(each, reader, findings);
   } catch (const std::exception& error) {
     const auto* const refused = dynamic_cast<const log::RefusedLog*>(&error);
     findings.push_back(

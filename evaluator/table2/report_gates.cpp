@@ -22,7 +22,7 @@ MetricValue if_kicks(const PolicyRow& row, double value) {
 }
 
 struct RowMetric {
-  const char* name;
+  std::string_view name;
   MetricValue (*of)(const PolicyRow&);
 };
 
@@ -47,7 +47,7 @@ constexpr std::array kOfRow{
     RowMetric{"on_target_per_min", [](const PolicyRow& row) { return row.per_min(row.inside()); }}};
 
 struct WholeMetric {
-  const char* name;
+  std::string_view name;
   MetricValue (*of)(const Report&);
 };
 
@@ -118,7 +118,7 @@ Measured of_rows(const Report& report, const Gate& gate) {
   for (const PolicyRow& row : rows) arms.insert(row.arm);
   if (arms.size() > 1)
     return {"", std::nullopt, fmt::format("{} arms met the same opportunities and are not added up", arms.size())};
-  const auto metric = std::ranges::find(kOfRow, gate.metric, [](const RowMetric& m) { return std::string(m.name); });
+  const auto metric = std::ranges::find(kOfRow, gate.metric, &RowMetric::name);
   return {"", metric->of(sum_of_rows(rows)), "there are no kicks, or no minutes, to make it of"};
 }
 
@@ -138,8 +138,7 @@ const GateMetrics& report_gate_metrics() {
 std::vector<GateResult> judge_gates(const Report& report, std::span<const Gate> gates) {
   std::vector<GateResult> results;
   for (const Gate& gate : gates) {
-    const auto whole =
-        std::ranges::find(kOfWhole, gate.metric, [](const WholeMetric& m) { return std::string(m.name); });
+    const auto whole = std::ranges::find(kOfWhole, gate.metric, &WholeMetric::name);
     results.push_back(judged(gate, {whole != kOfWhole.end() ? Measured{"", whole->of(report), "nothing to make it of"}
                                                             : of_rows(report, gate)}));
   }

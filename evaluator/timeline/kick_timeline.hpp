@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "evaluator/timeline/decided_segments.hpp"
@@ -85,5 +86,14 @@ std::vector<KickTimeline> kick_timelines(const log::Reader& reader);
 /// milliradians; kick_id and session_id as texts, since JavaScript's numbers do not hold them; nothing for what is
 /// empty. `json.dump()` is the same text for the same log.
 nlohmann::ordered_json json_of(const KickTimeline& timeline);
+
+/// `replay(container, timeline)` in plain JavaScript, without a library or a request: draws the timeline of a kick from
+/// above and from the side and plays it. To be put into a page as a script with replay_style() beside it. It sets no
+/// inline style and reads no text as HTML: a strict content-security policy lets it work, and texts of a log stay
+/// texts.
+std::string_view replay_script();
+
+/// Its style sheet: colours for light and dark readers as variables of .replay.
+std::string_view replay_style();
 
 }  // namespace trivela::evaluator

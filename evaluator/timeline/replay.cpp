@@ -1,11 +1,10 @@
-#include "evaluator/timeline/replay.hpp"
+#include "evaluator/timeline/kick_timeline.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "evaluator/render/json_values.hpp"
-#include "evaluator/timeline/kick_timeline.hpp"
 #include "evaluator/timeline/replay.css.hpp"
 #include "evaluator/timeline/replay.js.hpp"
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "evaluator/sessions/session_facts.hpp"
-#include "evaluator/timeline/replay.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 

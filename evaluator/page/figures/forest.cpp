@@ -53,7 +53,7 @@ std::string forest_section(const PageView& view) {
   plot.rows.push_back(heading("policies"));
   for (const PolicyRow& row : view.report.policies)
     plot.rows.push_back(row_of(name_of(row), row.counts(), row.efficiency_ci(), colour_of(view, row.policy)));
-  if (plot.rows.size() == 1) return section("forest", "How often on target", paragraphs({"There are no kicks."}));
+  if (plot.rows.size() == 1) return paragraphs({"There are no kicks."});
   if (!view.report.robots.empty()) plot.rows.push_back(heading("robots"));
   for (const RobotRow& row : view.report.robots) {
     plot.rows.push_back(row_of(fmt::format("robot {}, {}", row.robot_id, name_of(row)), row.counts(),
@@ -65,9 +65,7 @@ std::string forest_section(const PageView& view) {
     plot.rows.push_back(row_of(fmt::format("{}, {}", distance_bins()[band.first], band.second), counts,
                                stats::wilson(counts), colour_of(view, band.second)));
   }
-  std::string body = interval_plot(plot);
-  if (bands.empty()) body += paragraphs({"No kick says its distance."});
-  return section("forest", "How often on target", body);
+  return interval_plot(plot) + (bands.empty() ? paragraphs({"No kick says its distance."}) : "");
 }
 
 }  // namespace trivela::evaluator::page

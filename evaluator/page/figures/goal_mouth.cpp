@@ -73,7 +73,7 @@ std::string goal_mouth_section(const PageView& view) {
   const auto& kicks = view.data.kicks;
   OutcomeCounts counts{};
   std::size_t drawn = 0, at_edge = 0, other_goals = 0;
-  if (kicks.empty()) return section("mouth", "The goal mouth", paragraphs({"There are no kicks."}));
+  if (kicks.empty()) return paragraphs({"There are no kicks."});
   const Mouth mouth(kicks.front().timeline.goal);
   HeatMap cells(kCell_m);
   std::string marks;
@@ -91,8 +91,7 @@ std::string goal_mouth_section(const PageView& view) {
       marks += crossing(mouth, i, timeline);
     }
   }
-  if (drawn == 0)
-    return section("mouth", "The goal mouth", paragraphs({"No kick has an observed crossing of the goal line."}));
+  if (drawn == 0) return paragraphs({"No kick has an observed crossing of the goal line."});
   if (view.data.binned()) marks = cells.draw("heat", mouth.x, mouth.z);
   const std::string says = fmt::format("The goal from in front with {} observed crossings", drawn);
   std::string note = fmt::format(
@@ -104,9 +103,8 @@ std::string goal_mouth_section(const PageView& view) {
   if (other_goals > 0) note += fmt::format(" {} were at a goal of another width.", other_goals);
   if (drawn < kicks.size())
     note += fmt::format(" {} of {} kicks have no crossing that was seen.", kicks.size() - drawn, kicks.size());
-  return section("mouth", "The goal mouth",
-                 figure({"mouth-figure", says, mouth.floor_px + 96.0, view.simulated},
-                        frame(mouth) + marks + metres(mouth) + outcome_legend(counts, mouth.floor_px + 64.0), note));
+  return figure({"mouth-figure", says, mouth.floor_px + 96.0, view.simulated},
+                frame(mouth) + marks + metres(mouth) + outcome_legend(counts, mouth.floor_px + 64.0), note);
 }
 
 }  // namespace trivela::evaluator::page

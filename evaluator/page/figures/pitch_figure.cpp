@@ -160,7 +160,7 @@ std::string pitch_section(const PageView& view) {
   const KickTimeline any = data.kicks.empty() ? KickTimeline{} : data.kicks.front().timeline;
   const DrawnPlaces places = count_places(data, any);
   if (places.all_kicks() + places.held == 0)
-    return section("pitch", "Where from", paragraphs({"No kick says where it was taken, and no chance was held."}));
+    return paragraphs({"No kick says where it was taken, and no chance was held."});
   const Field field(any, std::min(places.low_m - 0.5, any.goal.y_m - 5.0));
   std::string note = data.binned()
                          ? "Squares of 50 cm: the darker, the more kicks. Grey: chances held."
@@ -170,9 +170,8 @@ std::string pitch_section(const PageView& view) {
   const std::string marks = data.binned() ? binned_places(data, field, any) : each_place(data, field, any);
   const std::string says =
       fmt::format("The field from above with {} kicks and {} chances held", places.all_kicks(), places.held);
-  return section("pitch", "Where from",
-                 figure({"pitch-figure", says, field.bottom_px + 82.0, view.simulated},
-                        lines(field) + marks + legend_of(places, field.bottom_px + 26.0), note));
+  return figure({"pitch-figure", says, field.bottom_px + 82.0, view.simulated},
+                lines(field) + marks + legend_of(places, field.bottom_px + 26.0), note);
 }
 
 }  // namespace trivela::evaluator::page

@@ -121,15 +121,4 @@ std::optional<ChiSquare> breslow_day(std::span<const Stratum> strata) {
   return ChiSquare{statistic, tables - 1.0, chi_square_p(statistic, tables - 1.0)};
 }
 
-bool simpson(std::span<const Stratum> strata) {
-  Stratum crude;
-  for (const Stratum& s : strata) {
-    crude.older = {crude.older.inside + s.older.inside, crude.older.n + s.older.n};
-    crude.newer = {crude.newer.inside + s.newer.inside, crude.newer.n + s.newer.n};
-  }
-  const auto adjusted = standardised(strata);
-  if (!adjusted || !has_both(crude)) return false;
-  return (*efficiency(crude.newer) - *efficiency(crude.older)) * adjusted->difference.value < 0.0;
-}
-
 }  // namespace trivela::evaluator::stats

@@ -57,7 +57,4 @@ std::optional<Standardised> standardised(std::span<const Stratum> strata, double
 /// than two strata can tell.
 std::optional<ChiSquare> breslow_day(std::span<const Stratum> strata);
 
-/// Simpson's paradox: the crude difference and the standardised one have opposite signs.
-bool simpson(std::span<const Stratum> strata);
-
 }  // namespace trivela::evaluator::stats
