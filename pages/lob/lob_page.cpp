@@ -6,30 +6,18 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <string_view>
 
 #include "config/text/parse_number.hpp"
 #include "evaluator/render/lob_json.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"
+#include "log/schema/digest.hpp"
 #include "pages/lob/page.css.hpp"
 #include "pages/lob/page.html.hpp"
 #include "pages/lob/page.js.hpp"
 
 namespace trivela::pages {
 namespace {
-
-constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-// RFC 4648.
-void append_base64(std::string& text, const std::vector<std::uint8_t>& bytes) {
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(bytes.size() - i, 3);
-    std::uint32_t group = 0;
-    for (std::size_t j = 0; j < 3; ++j) group = group << 8 | (j < left ? bytes[i + j] : 0u);
-    for (std::size_t j = 0; j < 4; ++j) text += j <= left ? kDigits[group >> (18 - 6 * j) & 63] : '=';
-  }
-}
 
 std::array<float, 2> place_of(const kicking::lob::BallCentre& centre) {
   return {static_cast<float>(centre.x_m), static_cast<float>(centre.z_m)};
@@ -68,7 +56,7 @@ std::string frame_json(std::size_t index, double t_s, std::span<const std::uint3
     bytes.push_back(static_cast<std::uint8_t>(drawn >> 8));
   }
   std::string text = fmt::format(R"({{"i":{},"t_s":{:.4f},"ready":{},"ranges":")", index, t_s, view.background_known);
-  append_base64(text, bytes);
+  text += log::base64(bytes);
   const auto out = std::back_inserter(text);
   const char* comma = "";
   text += R"(","runs":[)";

@@ -1,6 +1,7 @@
 #include "pages/monitor/kick_ledger.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "evaluator/stats/confidence_sequence.hpp"
@@ -110,27 +111,14 @@ void KickLedger::receive(const msg::KickOutcome& outcome, std::int64_t received_
 }
 
 std::map<std::optional<PolicyLabel>, KickTally> KickLedger::tallies(const LedgerNow& now) const {
+  constexpr std::array kCounters{&KickTally::under_way, &KickTally::refused, &KickTally::inside, &KickTally::outside,
+                                 &KickTally::unknown};  // in the order of KickFate
   std::map<std::optional<PolicyLabel>, KickTally> tallies;
   for (const KnownKick& kick : kicks_) {
     KickTally& tally = tallies[kick.decided ? std::optional{kick.decided->policy} : std::nullopt];
-    switch (fate_of(kick, now)) {
-      case KickFate::kUnderWay:
-        ++tally.under_way;
-        break;
-      case KickFate::kRefused:
-        ++tally.refused;
-        break;
-      case KickFate::kInside:
-        ++tally.inside;
-        tally.goals += kick.ended->saved == false ? 1 : 0;
-        break;
-      case KickFate::kOutside:
-        ++tally.outside;
-        break;
-      case KickFate::kUnknown:
-        ++tally.unknown;
-        break;
-    }
+    const KickFate fate = fate_of(kick, now);
+    ++(tally.*kCounters.at(static_cast<std::size_t>(fate)));
+    tally.goals += fate == KickFate::kInside && kick.ended->saved == false ? 1 : 0;
   }
   return tallies;
 }

@@ -68,10 +68,6 @@ void MatchScene::look(std::int64_t now_ns) {
   state_.alarms.update(alarms_of(state_, now_ns), now_ns);
 }
 
-void MatchScene::take(const msg::WorldState& world, std::int64_t now_ns) {
-  state_.robots[world.robot_id].world.receive(world, now_ns);
-}
-
 void MatchScene::take(const msg::KickDecision& decision, std::int64_t now_ns) {
   RobotView& robot = state_.robots[decision.robot_id];
   robot.decision.receive(decision, now_ns);
@@ -82,18 +78,6 @@ void MatchScene::take(const msg::KickDecision& decision, std::int64_t now_ns) {
 void MatchScene::take(const msg::KickReceipt& receipt, std::int64_t now_ns) { state_.kicks.receive(receipt, now_ns); }
 
 void MatchScene::take(const msg::KickOutcome& outcome, std::int64_t now_ns) { state_.kicks.receive(outcome, now_ns); }
-
-void MatchScene::take(const msg::KickerDrift& drift, std::int64_t now_ns) {
-  state_.robots[drift.robot_id].drift.receive(drift, now_ns);
-}
-
-void MatchScene::take(const msg::KickerEstimate& estimate, std::int64_t now_ns) {
-  state_.robots[estimate.robot_id].estimate.receive(estimate, now_ns);
-}
-
-void MatchScene::take(const msg::KickerStatus& status, std::int64_t now_ns) {
-  state_.robots[status.robot_id].kicker.receive(status, now_ns);
-}
 
 void MatchScene::take(const msg::DeviceKicker& device, std::int64_t now_ns) {
   state_.robots[device.robot_id].device.receive(device, now_ns);
@@ -113,10 +97,6 @@ void MatchScene::take(const msg::DeviceEmulated& word, std::int64_t) {
                               "an emulated range finder"};
   const auto part = static_cast<std::size_t>(word.part);
   state_.simulated.insert(part < kParts.size() ? kParts[part] : "an emulated device");
-}
-
-void MatchScene::take(const msg::FlightFrame& frame, std::int64_t now_ns) {
-  state_.robots[frame.robot_id].flight.receive(frame, now_ns);
 }
 
 void MatchScene::take(const msg::Referee& referee, std::int64_t now_ns) { state_.referee.receive(referee, now_ns); }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -120,19 +121,22 @@ class MatchScene {
   bool has_place(std::uint8_t robot_id);
   std::int64_t awake_at(std::int64_t now_ns) const;
   void count(const std::string& topic, std::uint8_t robot_id, const monitor::ReceivedSample& received);
-  void take(const auto&, std::int64_t) {}
-  void take(const msg::WorldState& world, std::int64_t now_ns);
+
+  /// Most are kept as they came, or are a sign of life alone.
+  template <class T>
+  void take(const T& sample, std::int64_t now_ns) {
+    const auto keep = [&]<class Kept>(Kept RobotView::*kept) {
+      if constexpr (std::is_same_v<Kept, Latest<T>>) (state_.robots[sample.robot_id].*kept).receive(sample, now_ns);
+    };
+    std::apply([&](auto... kept) { (keep(kept), ...); }, kKeptOfRobots);
+  }
   void take(const msg::KickDecision& decision, std::int64_t now_ns);
   void take(const msg::KickReceipt& receipt, std::int64_t now_ns);
   void take(const msg::KickOutcome& outcome, std::int64_t now_ns);
-  void take(const msg::KickerDrift& drift, std::int64_t now_ns);
-  void take(const msg::KickerEstimate& estimate, std::int64_t now_ns);
-  void take(const msg::KickerStatus& status, std::int64_t now_ns);
   void take(const msg::DeviceKicker& device, std::int64_t now_ns);
   void take(const msg::DeviceWheels& device, std::int64_t now_ns);
   void take(const msg::DeviceGyro& device, std::int64_t now_ns);
   void take(const msg::DeviceEmulated& word, std::int64_t now_ns);
-  void take(const msg::FlightFrame& frame, std::int64_t now_ns);
   void take(const msg::Referee& referee, std::int64_t now_ns);
 
   SceneState state_;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "idl/messages.hpp"
 
@@ -36,6 +37,10 @@ struct RobotView {
   Latest<msg::KickerEstimate> estimate;
   std::int64_t unarmed_since_ns = 0;  ///< the game is played and the kicker is off; 0: it is not so
 };
+
+/// What is kept of a robot as it came.
+inline constexpr std::tuple kKeptOfRobots{&RobotView::world, &RobotView::kicker, &RobotView::flight, &RobotView::drift,
+                                          &RobotView::estimate};
 
 /// Whether it fires, and why or why not in words.
 struct Why {

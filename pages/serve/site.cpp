@@ -2,17 +2,13 @@
 
 #include <arpa/inet.h>
 #include <fmt/core.h>
-#include <sys/random.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
-#include <stdexcept>
 
 #include "config/text/error.hpp"
 #include "config/text/parse_number.hpp"
+#include "log/schema/digest.hpp"
 
 namespace trivela::pages {
 namespace {
@@ -64,11 +60,8 @@ bool same_origin(const std::string& origin_header, const std::string& host_heade
 }
 
 std::string draw_token() {
-  std::array<unsigned char, 16> bytes{};
-  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw std::runtime_error{fmt::format("cannot draw a token: {}", std::strerror(errno))};
-  std::string token;
-  for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
+  std::string token = log::make_uuid();
+  std::erase(token, '-');
   return token;
 }
 

@@ -25,7 +25,7 @@ bool names_this_machine(const std::string& host_header, const std::string& own_n
 /// No Origin (not sent by a page of another site), or that of the page itself.
 bool same_origin(const std::string& origin_header, const std::string& host_header);
 
-/// 32 hexadecimal digits that nobody can guess. Throws std::runtime_error where the kernel gives none.
+/// 32 hexadecimal digits that nobody can guess. Throws std::runtime_error where the system gives no random numbers.
 std::string draw_token();
 
 /// The first line of a file that its owner alone may read. Throws config::BadArgument naming the file where it cannot
