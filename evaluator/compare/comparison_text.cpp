@@ -107,17 +107,13 @@ std::string efficiency_lines(const Comparison& c) {
   return text;
 }
 
-std::string counts_lines(const Comparison& c) {
+std::string to_text(const Comparison& c) {
   std::string size = kicks_of_each(c.needed_for_smallest) +
                      fmt::format(" to see {:.1f} points with 80 % power", 100.0 * c.smallest_effect);
   if (c.needed_for_seen) size += fmt::format(", {} for the difference seen", kicks_of_each(*c.needed_for_seen));
-  return efficiency_lines(c) + named_line("kicks needed", size);
-}
-
-std::string to_text(const Comparison& c) {
   std::string text = text_table({{"", "inside", "outside", "efficiency", "Wilson 95 %"}, row(c.older), row(c.newer)}) +
-                     "\n" + counts_lines(c);
-  text += named_line("verdict", verdict_of(c));
+                     "\n" + efficiency_lines(c) + named_line("kicks needed", size) +
+                     named_line("verdict", verdict_of(c));
   text += "\nTo be read with care\n";
   for (const std::string& note : notes(c)) text += bullet(note);
   return text + gates_text(c.gates);

@@ -165,10 +165,8 @@ std::string to_json(const PolicyComparison& comparison);
 /// enough. `smallest_effect` is a proportion. p is not adjusted for other pairs.
 Headline headline_of(const PairResult& pair, double smallest_effect);
 
-/// The numbers of a comparison of counts, a line each, indented by two blanks.
-std::string counts_lines(const Comparison& comparison);
-
-/// The same without the kicks needed, which a comparison of matches has for its headline.
+/// The numbers of a comparison of counts, a line each, indented by two blanks, without the kicks needed, which a
+/// comparison of matches has for its headline.
 std::string efficiency_lines(const Comparison& comparison);
 
 /// The same as JSON; the keys are those of to_json().

@@ -81,8 +81,9 @@ std::string calibrations(const stats::Clustered& clustered) {
 std::string inside_text(const PolicyComparison& c) {
   std::vector<NamedInside> groups;
   for (const GroupResult& g : c.groups) groups.push_back({g.name, g.inside_kicks});
-  std::string text = inside_lines(groups);
-  if (!text.empty()) text = "\nOf the balls inside\n" + text;
+  std::string text;
+  for (const std::string& line : inside_lines(groups))
+    text += fmt::format("{}  {}\n", text.empty() ? "\nOf the balls inside\n" : "", line);
   if (!c.dataset.keeper) return text;
   Rows table = {{c.by, "inside", "goals", "not known", "goals an opp.", "95 %"}};
   for (const GroupResult& g : c.groups) {

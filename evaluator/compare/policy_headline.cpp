@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "evaluator/compare/policy_comparison.hpp"
@@ -106,17 +107,10 @@ std::string measure_of(const Headline& headline) {
 }
 
 std::string cause_of(Design design, const std::string& by) {
-  switch (design) {
-    case Design::kBeforeAfter:
-      return "";
-    case Design::kAlternating:
-      return fmt::format("; the {} took turns within the matches", by);
-    case Design::kRandomised:
-      return fmt::format(", because of the {}: it was drawn at random", by);
-    case Design::kPaired:
-      return fmt::format(", because of the {}: both had the same opportunities", by);
-  }
-  return "";
+  constexpr std::array kCauses{"", "; the {} took turns within the matches",
+                               ", because of the {}: it was drawn at random",
+                               ", because of the {}: both had the same opportunities"};
+  return fmt::format(fmt::runtime(kCauses.at(static_cast<std::size_t>(design))), by);
 }
 
 }  // namespace

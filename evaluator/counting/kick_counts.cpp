@@ -10,8 +10,8 @@
 namespace trivela::evaluator {
 namespace {
 
-std::string line(std::span<const NamedInside> groups, const char* what, ReportsOfInside InsideKicks::*said,
-                 bool truth) {
+void add_line(std::vector<std::string>& lines, std::span<const NamedInside> groups, const char* what,
+              ReportsOfInside InsideKicks::*said, bool truth) {
   std::vector<std::string> parts;
   for (const NamedInside& group : groups) {
     const ReportsOfInside& of = group.inside.*said;
@@ -19,9 +19,9 @@ std::string line(std::span<const NamedInside> groups, const char* what, ReportsO
     parts.push_back(
         fmt::format("{} {} of {}", group.name, truth ? of.truth_yes : of.observed_yes, truth ? of.truth : of.observed));
   }
-  if (parts.empty()) return "";
-  return fmt::format("  {}, of those inside, {}: {}\n", what, truth ? "by the simulator's truth" : "as observed",
-                     fmt::join(parts, ", "));
+  if (parts.empty()) return;
+  lines.push_back(fmt::format("{}, of those inside, {}: {}", what, truth ? "by the simulator's truth" : "as observed",
+                              fmt::join(parts, ", ")));
 }
 
 Json share(std::int64_t yes, std::int64_t of, const char* what) {
@@ -99,14 +99,14 @@ std::optional<double> KickCounts::per_min(std::int64_t n) const {
   return static_cast<double>(n) / *played_min;
 }
 
-std::string inside_lines(std::span<const NamedInside> groups) {
-  constexpr const char* kBounced = "bounced before the line";
-  std::string text =
-      line(groups, kBounced, &InsideKicks::bounced, false) + line(groups, kBounced, &InsideKicks::bounced, true);
-  if (std::ranges::none_of(groups, [](const NamedInside& group) { return group.inside.saved.any(); })) return text;
-  constexpr const char* kSaved = "saved by a keeper";
-  text += line(groups, kSaved, &InsideKicks::saved, false);
-  return text + line(groups, kSaved, &InsideKicks::saved, true);
+std::vector<std::string> inside_lines(std::span<const NamedInside> groups) {
+  const bool saves = std::ranges::any_of(groups, [](const NamedInside& group) { return group.inside.saved.any(); });
+  std::vector<std::string> lines;
+  for (const bool truth : {false, true})
+    add_line(lines, groups, "bounced before the line", &InsideKicks::bounced, truth);
+  for (const bool truth : {false, true})
+    if (saves) add_line(lines, groups, "saved by a keeper", &InsideKicks::saved, truth);
+  return lines;
 }
 
 Json said_json(const ReportsOfInside& said, const char* what) {

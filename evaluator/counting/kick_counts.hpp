@@ -87,9 +87,9 @@ struct NamedInside {
   InsideKicks inside;
 };
 
-/// "  bounced before the line, of those inside, ...: stopped 16 of 31, moving 40 of 95" and "  saved by a keeper, ...",
-/// a line for each that says it; of saves only where there are some. Empty where nobody says anything.
-std::string inside_lines(std::span<const NamedInside> groups);
+/// "bounced before the line, of those inside, ...: stopped 16 of 31, moving 40 of 95" and "saved by a keeper, ...", a
+/// sentence for each that says it; of saves only where there are some. Empty where nobody says anything.
+std::vector<std::string> inside_lines(std::span<const NamedInside> groups);
 
 /// {"observed": {`what`, "of"}, "truth": ...}; null where nobody says it.
 Json said_json(const ReportsOfInside& said, const char* what);

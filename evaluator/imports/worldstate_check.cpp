@@ -119,40 +119,34 @@ void WorldstateCheck::part_numbers(const std::string& key, const Numbers& number
 }
 
 bool WorldstateCheck::position_usable(std::string_view whose, std::size_t n) {
+  const auto not_usable = [&](const std::string& name, std::string_view key, const std::string& value) {
+    fault(name, key, value);
+    return false;
+  };
   if (part_.position_null) return false;  // counted when it was read
-  if (!part_.position) {
-    fault(fmt::format("{} without position", whose), "", "");
-    return false;
-  }
-  if (part_.position->size > Numbers{}.at.size()) {
-    fault(fmt::format("{} with too long a position", whose), whose, shown(*part_.position));
-    return false;
-  }
-  if (!part_.position->has(n)) {
-    const bool shorter = part_.position->size < n;
-    fault(shorter ? fmt::format("{} with too short a position", whose) : std::string("null position"), whose, "");
-    return false;
-  }
-  if (within(*part_.position, 2, kFarthest_m)) return true;
-  fault("position beyond 50 m", whose, fmt::format("{}, {}", *part_.position->at[0], *part_.position->at[1]));
-  return false;
+  if (!part_.position) return not_usable(fmt::format("{} without position", whose), "", "");
+  const Numbers& position = *part_.position;
+  if (position.size > position.at.size())
+    return not_usable(fmt::format("{} with too long a position", whose), whose, shown(position));
+  if (position.size < n) return not_usable(fmt::format("{} with too short a position", whose), whose, "");
+  if (!position.has(n)) return not_usable("null position", whose, "");
+  return within(position, 2, kFarthest_m) ||
+         not_usable("position beyond 50 m", whose, fmt::format("{}, {}", *position.at[0], *position.at[1]));
 }
 
 std::optional<Numbers> WorldstateCheck::usable_velocity(std::string_view whose, std::size_t n) {
-  if (!part_.velocity) {
+  const auto& velocity = part_.velocity;
+  if (!velocity) {
     fault(fmt::format("{} without velocity", whose), "", "");
-    return std::nullopt;
+  } else if (velocity->size > velocity->at.size()) {
+    fault(fmt::format("{} with too long a velocity", whose), whose, shown(*velocity));
+  } else if (!velocity->has(n)) {
+    if (velocity->size > 0) fault("velocity null", whose, "");
+  } else if (!within(*velocity, n, kFastest_mps)) {
+    fault("velocity beyond 50 m/s", whose, *velocity->at[0]);
+  } else {
+    return velocity;
   }
-  if (part_.velocity->size > Numbers{}.at.size()) {
-    fault(fmt::format("{} with too long a velocity", whose), whose, shown(*part_.velocity));
-    return std::nullopt;
-  }
-  if (!part_.velocity->has(n)) {
-    if (part_.velocity->size > 0) fault("velocity null", whose, "");
-    return std::nullopt;
-  }
-  if (within(*part_.velocity, n, kFastest_mps)) return part_.velocity;
-  fault("velocity beyond 50 m/s", whose, *part_.velocity->at[0]);
   return std::nullopt;
 }
 

@@ -145,6 +145,37 @@ std::vector<Decile> deciles_of(const LearnedModel& model, std::span<const Predic
   return deciles;
 }
 
+/// The losses of a model on kicks that it has not seen.
+HeldOutLoss held_out_loss(const LearnedModel& model, std::span<const PredictedKick> kicks) {
+  HeldOutLoss out;
+  std::map<std::uint32_t, std::pair<double, double>> by_match;  // sum of differences, kicks
+  const auto n = static_cast<double>(kicks.size());
+  for (const PredictedKick& kick : kicks) {
+    const double learned = log_loss(model.p_on_target(kick.shot), kick.on_target);
+    const double predictive = log_loss(physical_p(kick), kick.on_target);
+    out.learned += learned / n;
+    out.predictive += predictive / n;
+    auto& [sum, count] = by_match[kick.match];
+    sum += learned - predictive;
+    count += 1.0;
+  }
+  if (by_match.size() < stats::kFewestMatches) {
+    throw std::runtime_error(fmt::format("{} held-out {} with kicks, need {} for an interval", by_match.size(),
+                                         by_match.size() == 1 ? "match" : "matches", stats::kFewestMatches));
+  }
+  out.kicks = static_cast<std::int64_t>(kicks.size());
+  out.matches = static_cast<std::int64_t>(by_match.size());
+  out.difference = out.learned - out.predictive;
+  std::vector<stats::Influence> of_sum;
+  of_sum.reserve(by_match.size());
+  for (const auto& [match, cell] : by_match) of_sum.push_back({match, 0, cell.first - cell.second * out.difference});
+  const stats::ClusterVariance spread = *stats::cluster_variance(of_sum);
+  const double reach = stats::t_of(stats::kConfidence, spread.df) * (std::sqrt(spread.variance) / n);
+  out.ci = {out.difference - reach, out.difference + reach};
+  out.deciles = deciles_of(model, kicks);
+  return out;
+}
+
 }  // namespace
 
 PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, PredictionSource source,
@@ -188,36 +219,6 @@ PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, P
     r.kick.match = numbers.try_emplace(match, static_cast<std::uint32_t>(numbers.size())).first->second;
     out.kicks.push_back(r.kick);
   }
-  return out;
-}
-
-HeldOutLoss held_out_loss(const LearnedModel& model, std::span<const PredictedKick> kicks) {
-  HeldOutLoss out;
-  std::map<std::uint32_t, std::pair<double, double>> by_match;  // sum of differences, kicks
-  const auto n = static_cast<double>(kicks.size());
-  for (const PredictedKick& kick : kicks) {
-    const double learned = log_loss(model.p_on_target(kick.shot), kick.on_target);
-    const double predictive = log_loss(physical_p(kick), kick.on_target);
-    out.learned += learned / n;
-    out.predictive += predictive / n;
-    auto& [sum, count] = by_match[kick.match];
-    sum += learned - predictive;
-    count += 1.0;
-  }
-  if (by_match.size() < stats::kFewestMatches) {
-    throw std::runtime_error(fmt::format("{} held-out {} with kicks, need {} for an interval", by_match.size(),
-                                         by_match.size() == 1 ? "match" : "matches", stats::kFewestMatches));
-  }
-  out.kicks = static_cast<std::int64_t>(kicks.size());
-  out.matches = static_cast<std::int64_t>(by_match.size());
-  out.difference = out.learned - out.predictive;
-  std::vector<stats::Influence> of_sum;
-  of_sum.reserve(by_match.size());
-  for (const auto& [match, cell] : by_match) of_sum.push_back({match, 0, cell.first - cell.second * out.difference});
-  const stats::ClusterVariance spread = *stats::cluster_variance(of_sum);
-  const double reach = stats::t_of(stats::kConfidence, spread.df) * (std::sqrt(spread.variance) / n);
-  out.ci = {out.difference - reach, out.difference + reach};
-  out.deciles = deciles_of(model, kicks);
   return out;
 }
 

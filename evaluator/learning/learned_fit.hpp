@@ -91,7 +91,4 @@ struct LearnedFit {
 /// training kicks, kicks of one outcome alone, or a feature that is not finite.
 LearnedFit fit_learned_model(std::span<const PredictedKick> kicks, const LearnOptions& options = {});
 
-/// The losses of a model on kicks that it has not seen. Throws std::runtime_error for fewer than 5 matches.
-HeldOutLoss held_out_loss(const kicking::LearnedModel& model, std::span<const PredictedKick> kicks);
-
 }  // namespace trivela::evaluator

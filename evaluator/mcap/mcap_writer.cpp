@@ -34,13 +34,6 @@ std::uint32_t crc_after(std::uint32_t crc, std::string_view bytes) {
   return static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-template <class Number>
-void append(std::string& bytes, Number number) {
-  char raw[sizeof(number)];
-  std::memcpy(raw, &number, sizeof(number));
-  bytes.append(raw, sizeof(number));
-}
-
 /// Content of a record, member by member, little endian and without gaps.
 class Content {
  public:

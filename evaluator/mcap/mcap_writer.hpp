@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -10,6 +11,14 @@
 #include <vector>
 
 namespace trivela::evaluator::mcap {
+
+/// Appends a number as its bytes.
+template <class Number>
+void append(std::string& bytes, Number number) {
+  char raw[sizeof(number)];
+  std::memcpy(raw, &number, sizeof(number));
+  bytes.append(raw, sizeof(number));
+}
 
 /// What the messages of a channel are, in ros2msg.
 struct Schema {

@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,9 +29,7 @@ class Cdr {
   template <class Number>
   void put(Number number) {
     align(sizeof(number));
-    char raw[sizeof(number)];
-    std::memcpy(raw, &number, sizeof(number));
-    bytes_.append(raw, sizeof(number));
+    append(bytes_, number);
   }
 
   /// Its length with the 0 at its end, then both.

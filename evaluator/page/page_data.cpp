@@ -1,5 +1,3 @@
-#include "evaluator/page/page_data.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +15,7 @@
 #include "evaluator/metrics/held_decisions.sql.hpp"
 #include "evaluator/metrics/held_shadows.sql.hpp"
 #include "evaluator/metrics/predicted_kicks.sql.hpp"
+#include "evaluator/page/report_page.hpp"
 #include "log/read/clock_offsets.hpp"
 #include "log/schema/digest.hpp"
 

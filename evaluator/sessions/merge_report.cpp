@@ -18,9 +18,7 @@ namespace {
 
 using KickSet = std::set<std::tuple<std::int64_t, int, std::int64_t>>;  // session of an experiment or 0, robot, kick_id
 
-struct KickKeys {
-  std::map<std::int64_t, KickSet> by_session;
-};
+using KickKeys = std::map<std::int64_t, KickSet>;  // by session
 
 KickKeys kicks_of(const log::Reader& reader) {
   KickKeys kicks;
@@ -28,7 +26,7 @@ KickKeys kicks_of(const log::Reader& reader) {
       "SELECT k.session_id, iif(s.match_id IS NULL, 0, s.session_id), k.robot_id, k.kick_id FROM kicks AS k JOIN "
       "sessions AS s ON s.session_id = k.session_id",
       [&](std::int64_t session_id, std::int64_t of_experiment, int robot_id, std::int64_t kick_id) {
-        kicks.by_session[session_id].emplace(of_experiment, robot_id, kick_id);
+        kicks[session_id].emplace(of_experiment, robot_id, kick_id);
       });
   return kicks;
 }
@@ -56,7 +54,7 @@ std::vector<std::string> file_row(const log::Merged& merged, const log::MergedFi
     if (session == merged.sessions.end()) continue;
     robots.insert(session->clock.robot_id == 0 ? "base" : std::to_string(session->clock.robot_id));
     clocks.insert(clock_words(merged.alignment, session->clock));
-    if (const auto there = kicks.by_session.find(part.session_id); there != kicks.by_session.end())
+    if (const auto there = kicks.find(part.session_id); there != kicks.end())
       its_kicks.insert(there->second.begin(), there->second.end());
   }
   return {file.path.filename().string(),

@@ -9,6 +9,11 @@ namespace {
 
 using Place = std::uint32_t;
 
+/// Whether `a` says more than `b` of what both recorded: it has more rows, or was closed.
+bool more_complete(const ComparedSession& a, const ComparedSession& b) {
+  return std::pair(a.row_count, a.closed_utc_ns.has_value()) > std::pair(b.row_count, b.closed_utc_ns.has_value());
+}
+
 /// Sets of sessions that are joined two by two.
 class Joined {
  public:
@@ -129,10 +134,6 @@ void leave_out_replays(std::vector<ComparedSession>& sessions) {
 }
 
 }  // namespace
-
-bool more_complete(const ComparedSession& a, const ComparedSession& b) {
-  return std::pair(a.row_count, a.closed_utc_ns.has_value()) > std::pair(b.row_count, b.closed_utc_ns.has_value());
-}
 
 void find_plays(std::vector<ComparedSession>& sessions, const std::vector<KickRecording>& kicks) {
   Joined joined(sessions.size());

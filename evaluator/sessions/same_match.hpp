@@ -58,9 +58,6 @@ struct KickRecording {
   auto kick() const { return std::tuple(robot_id, kick_id, t_ns); }
 };
 
-/// Whether `a` says more than `b` of what both recorded: it was closed, or has more rows.
-bool more_complete(const ComparedSession& a, const ComparedSession& b);
-
 /// Finds out which sessions recorded the same play and sets `play` and `counts`:
 /// - sessions with a kick in common, by robot, kick_id and instant, recorded the same play;
 /// - so did a session and the one that it goes on from, and sessions of robots that overlap in time, unless both have

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/sessions/label_quality.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"
-#include "kicking/text/printable.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -17,12 +15,6 @@ namespace {
 std::string shown(std::int64_t n) { return std::to_string(n); }
 
 std::string shown(std::optional<double> x) { return x ? fmt::format("{:.2f}", *x) : "-"; }
-
-// Lines that are indented for a terminal, as sentences.
-void add_lines(std::vector<std::string>& notes, const std::string& lines) {
-  std::istringstream in(lines);
-  for (std::string line; std::getline(in, line);) notes.push_back(line.substr(line.find_first_not_of(' ')));
-}
 
 // The first cells of a row: who kicked.
 std::vector<std::string> who_of(const Report& report, const PolicyRow& row) {
@@ -64,11 +56,11 @@ ReportPart table2_part(const Report& report) {
   std::vector<NamedInside> inside;
   bool blocked_apart = false;
   for (const PolicyRow& row : report.policies) {
-    inside.push_back({kicking::printable(name_of(row)), row.inside_kicks});  // its lines are taken apart
+    inside.push_back({name_of(row), row.inside_kicks});
     blocked_apart = blocked_apart || row.blocked_apart;
     append(part.table.emplace_back(who_of(report, row)), count_cells(row));
   }
-  add_lines(part.notes, inside_lines(inside));
+  append(part.notes, inside_lines(inside));
   if (report.arms.size() > 1)
     part.notes.emplace_back("arms of an experiment meet the same opportunities, so that their kicks are not added up");
   if (blocked_apart) part.notes.emplace_back("blocked kicks stand apart, below: neither outside nor in the efficiency");
@@ -155,8 +147,7 @@ ReportPart kickers_part(const Report& report) {
                           with_error(last.speed_ln, 0.01, 1), with_error(last.elevation_rad, degree, 1),
                           with_error(last.direction_rad, degree, 1), with_error(last.delay_s, 0.001, 0),
                           with_error(last.along, 1.0, 2), with_error(last.sideways, 1.0, 2)});
-    const auto sentences = kicker.sentences();
-    part.notes.insert(part.notes.end(), sentences.begin(), sentences.end());
+    append(part.notes, kicker.sentences());
   }
   if (report.kickers.size() > kMostKickers)
     part.notes.push_back(
@@ -196,7 +187,7 @@ ReportPart quality_part(const Report& report) {
   for (const std::string& warning : report.warnings) notes.push_back("warning: " + warning);
   for (const auto& lines : {report.not_counted, cut_short_lines(report.lengths), silence_lines(report.silences),
                             order_lines(report.unrecorded_orders)})
-    notes.insert(notes.end(), lines.begin(), lines.end());
+    append(notes, lines);
   notes.push_back(report.doubt ? *report.doubt
                                : fmt::format("verified: {} rows are as they were recorded", report.verified_rows));
   for (const RefusedOrders& refused : report.refused_orders) notes.push_back(line_of(refused));

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string_view>
+#include <vector>
 
 #include "log/schema/refused_log.hpp"
 
@@ -61,6 +64,19 @@ std::vector<std::string> without_checks(const std::vector<std::string>& tokens) 
   return kept;
 }
 
+/// The tokens of a statement without comments and CHECK constraints: labels were added to those within a version, and
+/// none of them changes what a query says. Quoted names and texts stay as they are.
+std::vector<std::string> tokens_of(std::string_view sql) {
+  std::vector<std::string> tokens;
+  for (std::size_t begin = 0; begin < sql.size();) {
+    const std::size_t end = end_of(sql, begin);
+    const std::string_view part = sql.substr(begin, end - begin);
+    if (is_token(part)) tokens.emplace_back(part);
+    begin = end;
+  }
+  return without_checks(tokens);
+}
+
 /// Everything that a statement made, by name: what SQLite adds of itself has no statement.
 std::map<std::string, Object> objects_of(SQLite::Database& database) {
   SQLite::Statement query(database, "SELECT name, type, tbl_name, sql FROM main.sqlite_schema WHERE sql IS NOT NULL");
@@ -95,17 +111,6 @@ std::vector<std::string> indexes_on(SQLite::Database& database, const std::strin
 }
 
 }  // namespace
-
-std::vector<std::string> tokens_of(std::string_view sql) {
-  std::vector<std::string> tokens;
-  for (std::size_t begin = 0; begin < sql.size();) {
-    const std::size_t end = end_of(sql, begin);
-    const std::string_view part = sql.substr(begin, end - begin);
-    if (is_token(part)) tokens.emplace_back(part);
-    begin = end;
-  }
-  return without_checks(tokens);
-}
 
 void check_schema(SQLite::Database& database, const LogKind& kind, const std::string& file) {
   const auto refuse = [&](const std::string& what, Refused why = Refused::kDamaged) {

@@ -3,16 +3,10 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "log/schema/schema.hpp"
 
 namespace trivela::log {
-
-/// The tokens of a statement without comments and CHECK constraints: labels were added to those within a version, and
-/// none of them changes what a query says. Quoted names and texts stay as they are.
-std::vector<std::string> tokens_of(std::string_view sql);
 
 /// Makes sure that the tables and indexes of its kind are in the file as this program makes them, and that no other
 /// index lies on those tables: a foreign file may have a view or a virtual table of that name, a generated column, or

@@ -27,6 +27,12 @@ bool may_be_in_a_token(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_';
 }
 
+/// The host of a Host header or of an Origin without its scheme, without the port and brackets.
+std::string host_of(const std::string& authority) {
+  if (authority.starts_with('[')) return authority.substr(1, authority.find(']') - 1);
+  return authority.substr(0, authority.find(':'));
+}
+
 }  // namespace
 
 ListenAddress parse_listen(const std::string& text, int default_port, const std::string& called) {
@@ -40,11 +46,6 @@ ListenAddress parse_listen(const std::string& text, int default_port, const std:
     throw config::BadArgument{fmt::format("{} {}: '{}' is no port", called, text, port)};
   address.port = static_cast<int>(*number);
   return address;
-}
-
-std::string host_of(const std::string& authority) {
-  if (authority.starts_with('[')) return authority.substr(1, authority.find(']') - 1);
-  return authority.substr(0, authority.find(':'));
 }
 
 bool names_this_machine(const std::string& host_header, const std::string& own_name) {

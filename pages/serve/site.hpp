@@ -15,9 +15,6 @@ struct ListenAddress {
 /// address as `called`.
 ListenAddress parse_listen(const std::string& text, int default_port, const std::string& called = "address");
 
-/// The host of a Host header or of an Origin without its scheme, without the port and brackets.
-std::string host_of(const std::string& authority);
-
 /// The Host header names this machine in a way that no outsider's name server can: by an IP address, as localhost, or
 /// by `own_name`, alone or as own_name.local.
 bool names_this_machine(const std::string& host_header, const std::string& own_name);
