@@ -87,15 +87,14 @@ Effect difference(const ArmTally& newer, const ArmTally& older, Measure measure)
 }
 
 Effect share_of(const ArmTally& matches, Measure measure) {
-  Effect share = contrast({{&matches, 1.0}}, measure);
+  const auto total = counts_of(total_of(matches), measure);
+  const double none = std::nan("");
+  Effect share{real(total.inside) / real(total.n), {none, none}};
   if (!in_two_matches(matches, measure)) return share;
-  if (share.value == 0.0 || share.value == 1.0) {
-    std::vector<evaluator::stats::Counts> counts;
-    for (const MatchTally& match : matches) counts.push_back(counts_of(match, measure));
-    const auto by_match = evaluator::stats::clustered_wilson(counts);
-    share.ci = by_match.value_or(evaluator::stats::wilson_or_exact(counts_of(total_of(matches), measure)));
-  }
-  share.ci = {std::max(share.ci.lo, 0.0), std::min(share.ci.hi, 1.0)};
+  std::vector<evaluator::stats::ClusterCounts> cells;
+  for (const MatchTally& match : matches)
+    cells.push_back({static_cast<std::uint32_t>(cells.size()), match.calibration, counts_of(match, measure)});
+  share.ci = evaluator::stats::clustered_wilson(cells).value_or(evaluator::stats::wilson_or_exact(total));
   return share;
 }
 

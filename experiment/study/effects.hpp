@@ -57,8 +57,8 @@ Effect contrast(const std::vector<Term>& terms, Measure measure);
 /// The share of `newer` less that of `older`: contrast().
 Effect difference(const ArmTally& newer, const ArmTally& older, Measure measure);
 
-/// One arm's share. Its interval is contrast()'s, which is symmetric, cut off at 0 and 1. Where all or nothing was on
-/// target, so that the linearised variance is 0: Wilson's, by match where there are enough of them.
+/// One arm's share with the interval that `trivela compare` gives it: clustered_wilson() by match and calibration, of
+/// too few matches wilson_or_exact(). None where only one match has any.
 Effect share_of(const ArmTally& matches, Measure measure);
 
 /// Kicks of `newer` over kicks of `older`, the interval that of the logarithm, by the same linearisation. None where
