@@ -227,7 +227,7 @@ void add_match(CLI::App& app, int& exit_code) {
   add_default(*verb, "--config", flags->config, "configuration of the nodes");
   verb->add_option("--set", flags->overrides, "one setting on top, e.g. --set policy.settle_s=0.5");
   add_default(*verb, "--log-level", flags->log_level, "of the nodes",
-              CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
+              CLI::IsMember(std::vector<std::string>(config::kLogLevels.begin(), config::kLogLevels.end())));
   auto* secure =
       verb->add_option("--secure", flags->keys,
                        "every node with the keys of this folder (trivela keys; ./keys where it is named like a verb), "

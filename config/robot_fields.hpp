@@ -6,6 +6,7 @@
 
 #include "config/robot.hpp"
 #include "config/text/field_types.hpp"
+#include "kicking/model/omni_kinematics.hpp"
 
 /// The keys of a robot's file with its [calibration], each named once.
 namespace trivela::kicking {
@@ -51,6 +52,7 @@ void fields(auto& v, WheelBase& b) {
   v("wheel_angles_rad", b.wheel_angles_rad, config::Range{-6.3, 6.3});
   v("wheel_distance_m", b.wheel_distance_m, config::Range{0.02, 0.6});
   v("wheel_radius_m", b.wheel_radius_m, config::Range{0.005, 0.3});
+  config::require(v, "wheel_angles_rad", [&] { OmniKinematics{b}; });
 }
 
 }  // namespace trivela::kicking
@@ -168,13 +170,12 @@ struct RobotFile {
 
 /// Lets the set-points under `key` rise from above 0, where `v` reads a file.
 void require_rising(auto& v, std::string_view key, const std::vector<double>& column) {
-  if constexpr (requires { v.require(key, [] {}); })
-    v.require(key, [&] {
-      for (std::size_t i = 0; i < column.size(); ++i) {
-        if (const double before = i == 0 ? 0.0 : column[i - 1]; !(column[i] > before))
-          throw std::invalid_argument{fmt::format("[{}] must be above {}", i, before)};
-      }
-    });
+  require(v, key, [&] {
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      if (const double before = i == 0 ? 0.0 : column[i - 1]; !(column[i] > before))
+        throw std::invalid_argument{fmt::format("[{}] must be above {}", i, before)};
+    }
+  });
 }
 
 void fields(auto& v, DistanceColumns& t) {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/devices.hpp"
@@ -13,6 +15,8 @@
 #include "kicking/policy/policy.hpp"
 
 namespace trivela::config {
+
+inline constexpr std::array<std::string_view, 6> kLogLevels{"trace", "debug", "info", "warn", "error", "off"};
 
 /// Which robot this is and how its cycle runs.
 struct Run {
@@ -28,7 +32,7 @@ struct Run {
   std::string scenario = "scenarios/default.toml";  ///< simulator alone
   std::string field_file;  ///< goal, field and rules in one file (config/field.hpp); empty: as the settings say
   std::uint32_t memory_limit_mb = 1024;  ///< a node that takes more ends, to be started again
-  std::string log_level = "info";        ///< trace, debug, info, warn, error, off
+  std::string log_level = "info";        ///< one of kLogLevels
 };
 
 /// The DDS domain.

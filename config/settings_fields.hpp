@@ -1,5 +1,10 @@
 #pragma once
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
 #include "config/settings.hpp"
 #include "config/text/field_types.hpp"
 #include "kicking/kick_id.hpp"
@@ -225,6 +230,10 @@ void fields(auto& v, Run& r) {
   v("field_file", r.field_file);
   v("memory_limit_mb", r.memory_limit_mb, Range{8, 1'000'000});
   v("log_level", r.log_level);
+  require(v, "log_level", [&] {
+    if (std::ranges::find(kLogLevels, r.log_level) == kLogLevels.end())
+      throw std::invalid_argument{fmt::format("expected one of: {}", fmt::join(kLogLevels, ", "))};
+  });
 }
 
 void fields(auto& v, FieldLines& f) { v("side_line_x_m", f.side_line_x_m, Range{1.0, 30.0}); }

@@ -177,7 +177,7 @@ sideways (medians).
   add_drive_options(*verb, *flags);
   add_effort_options(*verb, flags->effort);
   add_default(*verb, "--log-level", flags->log_level, "of the nodes",
-              CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
+              CLI::IsMember(std::vector<std::string>(config::kLogLevels.begin(), config::kLogLevels.end())));
   verb->add_flag("--rehearse", flags->rehearse, "field: the same questions, played in the world of --scenario");
   verb->add_flag("--in-process", flags->in_process,
                  "without bus, nodes and records: the same robot in seconds; nothing but its file is written");

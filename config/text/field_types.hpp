@@ -38,6 +38,11 @@ struct AnyVisitor {
   void operator()(Args&&...) {}
 };
 
+/// Where `v` reads a file, throws Error at `key` where `check` throws std::invalid_argument.
+void require(auto& v, std::string_view key, const auto& check) {
+  if constexpr (requires { v.require(key, check); }) v.require(key, check);
+}
+
 template <class T>
 concept Section = requires(AnyVisitor v, T& t) {
   fields(v, t);

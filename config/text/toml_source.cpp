@@ -34,9 +34,21 @@ std::string text_of(const toml::node& node) {
   return out.str();
 }
 
+/// A table within a table for each part of a key: of too many the stack is too small. Throws Error.
+void refuse_deep_keys(std::string_view text, const std::string& name) {
+  constexpr int kMostParts = 100;
+  int line = 1, parts = 1;
+  for (const char c : text) {
+    if (c == '\n') ++line;
+    parts = std::string_view{"=,#[]{}\n"}.find(c) != std::string_view::npos ? 1 : parts + (c == '.' ? 1 : 0);
+    if (parts > kMostParts) throw Error{fmt::format("{}:{}: a key of more than {} parts", name, line, kMostParts)};
+  }
+}
+
 }  // namespace
 
 TomlSource parse_text(std::string_view text, std::string name) {
+  refuse_deep_keys(text, name);
   try {
     toml::table root = toml::parse(text, name);
     return {std::move(name), std::move(root)};

@@ -99,6 +99,20 @@ TEST(BadSettings, UnknownChoiceNamesTheKnownOnes) {
   EXPECT_THAT(settings_error("[kick_decision]\npolicy_by_half = []\n"), HasSubstr("policy_by_half is empty"));
 }
 
+TEST(BadSettings, AMisspeltLogLevelDoesNotSilenceANode) {
+  for (const std::string level : {"inof", "INFO", ""})
+    EXPECT_THAT(settings_error("[run]\nlog_level = \"" + level + "\"\n"),
+                AllOf(HasSubstr("bad.toml:2: run.log_level = "), HasSubstr(level),
+                      HasSubstr("expected one of: trace, debug, info, warn, error, off")));
+}
+
+TEST(BadSettings, AKeyOfMorePartsThanAStackHoldsIsRefused) {
+  std::string key = "a";
+  for (int part = 1; part < 100'000; ++part) key += ".a";
+  for (const std::string& text : {"\n" + key + " = 1\n", "\n[" + key + "]\n", "\nb = {" + key + " = 1}\n"})
+    EXPECT_THAT(settings_error(text), HasSubstr("bad.toml:2: a key of more than 100 parts"));
+}
+
 TEST(BadSettings, BrokenTomlIsNamedWithItsLine) {
   EXPECT_THAT(settings_error("[run]\nrobot_id = \n"), AllOf(HasSubstr("bad.toml:2"), HasSubstr("not valid TOML")));
 }
@@ -184,6 +198,14 @@ TEST(BadRobot, SpeedsThatDoNotRiseAreNamed) {
               HasSubstr("bad.toml:3: table.exit_speeds_mps = [ 6.0, 5.0 ]: [1] must be above 6"));
 }
 
+TEST(BadRobot, ABaseThatCannotDriveIsNamedWithItsLine) {
+  const std::string table = "[table]\npowers = [1.0, 2.0]\nexit_speeds_mps = [5.0, 6.0]\n[base]\n";
+  EXPECT_THAT(robot_error(table + "wheel_angles_rad = [0.5, 2.6]\n"),
+              HasSubstr("bad.toml:5: base.wheel_angles_rad = [ 0.5, 2.6 ]: an omni base has 3 or 4 wheels, not 2"));
+  EXPECT_THAT(robot_error(table + "wheel_angles_rad = []\n"), HasSubstr("bad.toml:5: base.wheel_angles_rad = []"));
+  EXPECT_THAT(robot_error(table + "wheel_angles_rad = [0.5, 0.5, 0.5]\n"), HasSubstr("do not span the plane"));
+}
+
 TEST(BadRobot, MissingTableIsRefused) { EXPECT_THAT(robot_error("name = \"x\"\n"), HasSubstr("table")); }
 
 TEST(BadScenario, ContradictionIsNamedWithItsLine) {
@@ -196,7 +218,8 @@ TEST(BadScenario, ContradictionIsNamedWithItsLine) {
 TEST(RoundTrip, ChangedSettingsReadBackTheSame) {
   Settings settings;
   settings.run.robot_id = 7;
-  settings.run.log_level = "a \"quoted\" \\ word";
+  settings.run.log_level = "off";
+  settings.run.team = "a \"quoted\" \\ word";
   settings.policy.settle_s = 0.1234567890123;
   settings.kick_decision.policy_by_half = {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving};
   const Scratch scratch;

@@ -58,6 +58,9 @@ TEST(SimulateArms, RefusesSettingsThatPlayNoPart) {
   EXPECT_THAT(said("run.robot_id=2"), HasSubstr("the scenario's [team]"));
   EXPECT_THAT(said("run.scenario='x.toml'"), HasSubstr("--scenario names the world"));
   EXPECT_THAT(said("run={robot='x.toml'}"), HasSubstr("run.robot plays no part in process: --robot"));
+  EXPECT_THAT(said("run.field_file='x.toml'"),
+              HasSubstr("run.field_file plays no part in process: the scenario names"));
+  EXPECT_THAT(said("field.side_line_x_m=3"), HasSubstr("field.side_line_x_m plays no part in process"));
   EXPECT_THAT(said("simulator.seed=1"), HasSubstr("--seed says"));
   EXPECT_THAT(said("simulator.halves=2"), HasSubstr("--possessions says"));
   EXPECT_THAT(said("recorder.log='x.db'"), HasSubstr("--out names the log"));
