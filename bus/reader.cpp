@@ -127,8 +127,11 @@ bool AnyReader::time_to_renew() {
   if (!due) return false;
   const double silent_s = std::chrono::duration<double>(silence_->silent_for(now)).count();
   const std::uint32_t alive = liveliness().alive;
-  hearing->renewed(
-      fmt::format("{}: silent for {:.1f} s with {} live writers: the reader is made again", topic_, silent_s, alive));
+  const std::uint32_t turned_away = counts().incompatible;
+  const std::string misfits =
+      turned_away > 0 ? fmt::format(", {} turned away since their QoS does not fit", turned_away) : "";
+  hearing->renewed(fmt::format("{}: silent for {:.1f} s with {} live writers{}: the reader is made again", topic_,
+                               silent_s, alive, misfits));
   // A writer that stands still or is gone lapses; one that is there and not heard lives on.
   constexpr std::size_t kHelpless = 4;  // 15 s: a node may live and have nothing to say
   if (alive > 0 && silence_->attempts() > kHelpless)

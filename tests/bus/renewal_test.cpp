@@ -2,10 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <future>
 #include <mutex>
 #include <vector>
 
+#include "bus/domain/qos.hpp"
 #include "bus/domain/reader_health.hpp"
 #include "bus/executor.hpp"
 #include "bus/node.hpp"
@@ -97,6 +99,25 @@ TEST(Renewal, EventsThatAreSaidWhileTheirReaderIsMadeAnewAreHeardOnceEach) {
     ASSERT_EQ(received.back(), seq);
   }
   EXPECT_EQ(renewals, 1);
+}
+
+// Of a plain client of Cyclone's.
+TEST(Renewal, AWriterWhoseQosDoesNotFitIsCounted) {
+  Wire wire;
+  const Participant foreign{wire.pair.a};
+  const Entity topic{
+      dds_create_topic(foreign.handle(), &meta<msg::VisionFrame>::descriptor(), "vision", nullptr, nullptr)};
+  const Qos best_effort{dds_create_qos()};
+  dds_qset_reliability(best_effort.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+  const Entity writer{dds_create_writer(foreign.handle(), topic.handle(), best_effort.get(), nullptr)};
+  ASSERT_TRUE(wire.writer.wait_for_readers(1, kPlenty));
+  const auto said = [&] {
+    return std::ranges::any_of(wire.warnings, [](const std::string& line) {
+      return line.find(", 1 turned away since their QoS does not fit: the reader") != std::string::npos;
+    });
+  };
+  for (int times = 0; times < 4 && !said(); ++times) ASSERT_TRUE(renewed(wire.reader));
+  EXPECT_TRUE(said());
 }
 
 TEST(Renewal, NobodyIsMadeAnewWhereThisIsNoRealTime) {
