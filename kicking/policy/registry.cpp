@@ -78,6 +78,7 @@ class PolicyRegistry {
   }
 
   PolicyName add(std::unique_ptr<Policy> policy) {
+    if (!policy) throw std::invalid_argument("register_policy() got no policy");
     check_name("policy", policy->facts().name);
     if (find(policy->facts().name) != nullptr ||
         std::ranges::count(kReserved, std::string_view{policy->facts().name}) > 0)

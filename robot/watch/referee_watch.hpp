@@ -15,7 +15,7 @@
 
 namespace trivela::robot {
 
-/// What the referee's word permits.
+/// What the referee's command permits.
 enum class RefereePermission {
   kNothing,  ///< it has said nothing yet
   kStop,
@@ -23,15 +23,15 @@ enum class RefereePermission {
   kSilent  ///< its last command was to play, but is too old or has no writer any more: counts as kStop
 };
 
-/// Whether the referee's last word still counts: "play" does until timeout_s after the word's own t_ns, on the steady
-/// clock, and while somebody is there to take it back. One program is to write it. Where several do, the stricter word
-/// counts: "stop" of any that was heard within timeout_s. heard() and says() are for one thread at a time, writers()
-/// for any.
+/// Whether the referee's last command still counts. "Play" does until timeout_s after the command's own t_ns, on the
+/// steady clock, and while its writer is there to take it back. One program is to write commands. Where several do, the
+/// stricter one counts: "stop" of any that came within timeout_s. received() and says() are for one thread at a time,
+/// writers() for any.
 class RefereeWatch {
  public:
   explicit RefereeWatch(double timeout_s) : timeout_s_(timeout_s) {}
 
-  /// A word from the future is as good as one of now. `writer` tells the programs that write apart.
+  /// A command from the future counts as one of now. `writer` tells the programs that write apart.
   void received(const msg::Referee& word, std::int64_t now_ns, std::uint64_t writer = 0) {
     std::erase_if(others_, [&](const Other& other) { return other.writer == writer || is_old(other, now_ns); });
     if (word_ && writer != writer_ && others_.size() < kMostOthers) others_.push_back({writer_, received_ns_, *word_});
@@ -41,7 +41,7 @@ class RefereeWatch {
     deserted_ = false;
   }
 
-  /// To be told of each change among the writers: how many live.
+  /// Is called at each change among the writers: how many live.
   void writers(std::uint32_t alive) {
     if (alive == 0) deserted_ = true;
   }
@@ -52,10 +52,10 @@ class RefereeWatch {
     return deserted_ || age_s(now_ns) > timeout_s_ ? RefereePermission::kSilent : RefereePermission::kPlay;
   }
 
-  /// When the last word, which is to play, ends to count. 0: there is none.
+  /// When the last command, which is to play, ceases to count. 0: there is none.
   std::int64_t counts_until_ns() const { return word_ ? word_->t_ns + kicking::nanoseconds(timeout_s_) : 0; }
 
-  /// A sentence whenever it falls silent or is heard again, or a second program begins to write; none in between.
+  /// A sentence whenever it falls silent or comes again, or a second program begins to write; none in between.
   std::optional<std::string> news(std::int64_t now_ns) {
     const bool contested = std::ranges::any_of(others_, [&](const Other& other) { return !is_old(other, now_ns); });
     if (std::exchange(contested_, contested) != contested)
