@@ -6,6 +6,7 @@
 #include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/table2/table2.hpp"
 #include "python/arrays.hpp"
+#include "python/signals.hpp"
 
 namespace trivela::python {
 namespace {
@@ -16,7 +17,7 @@ Texts texts_of(const auto& comparison) { return {evaluator::to_json(comparison),
 
 Texts compare_logs(const std::vector<std::string>& logs, const evaluator::ComparisonQuestion& question) {
   evaluator::check(question);
-  return texts_of(evaluator::compare_logs({logs.begin(), logs.end()}, question));
+  return reading([&] { return texts_of(evaluator::compare_logs({logs.begin(), logs.end()}, question)); });
 }
 
 evaluator::NamedCounts counts_of(const std::string& name, std::int64_t inside, std::int64_t n) {
@@ -35,13 +36,15 @@ Texts compare_counts(const Group& older, const Group& newer, double smallest_eff
 }
 
 Texts report(const std::vector<std::string>& paths, bool blocked_apart) {
-  std::vector<std::unique_ptr<log::Reader>> readers;
-  std::vector<evaluator::OpenLog> logs;
-  for (const std::string& path : paths) {
-    readers.push_back(std::make_unique<log::Reader>(path));
-    logs.push_back({readers.back().get(), path});
-  }
-  return texts_of(evaluator::make_report(logs, blocked_apart));
+  return reading([&] {
+    std::vector<std::unique_ptr<log::Reader>> readers;
+    std::vector<evaluator::OpenLog> logs;
+    for (const std::string& path : paths) {
+      readers.push_back(std::make_unique<log::Reader>(path));
+      logs.push_back({readers.back().get(), path});
+    }
+    return texts_of(evaluator::make_report(logs, blocked_apart));
+  });
 }
 
 }  // namespace
@@ -56,10 +59,9 @@ void add_comparisons(py::module_& module) {
                                   .design = design,
                                   .smallest_effect = smallest_effect};
       }));
-  const py::call_guard<py::gil_scoped_release> others;
-  module.def("compare_logs", compare_logs, others);
-  module.def("compare_counts", compare_counts, others);
-  module.def("report", report, others);
+  module.def("compare_logs", compare_logs);
+  module.def("compare_counts", compare_counts, py::call_guard<py::gil_scoped_release>());
+  module.def("report", report);
 }
 
 }  // namespace trivela::python

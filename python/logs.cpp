@@ -1,6 +1,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -10,6 +11,7 @@
 #include "log/schema/stream_table.hpp"
 #include "python/arrays.hpp"
 #include "python/columns.hpp"
+#include "python/signals.hpp"
 
 namespace trivela::python {
 namespace {
@@ -33,17 +35,25 @@ class OpenLogs {
   std::vector<evaluator::OpenLog> logs_;
 };
 
+/// The columns of a data frame, `log` among them where there are several logs.
+void require_distinct(std::vector<std::string> names, bool several_logs) {
+  if (several_logs) names.emplace_back("log");
+  for (const std::string& name : names)
+    if (std::ranges::count(names, name) > 1)
+      throw log::BadQuestion(fmt::format("two columns are called '{}': name them with AS", name));
+}
+
 /// (names, columns of one SELECT, asked of each log, and the log of each row).
 py::tuple ask(const std::vector<std::string>& paths, const std::string& sql) {
   std::vector<std::string> names;
   std::vector<Column> columns;
   Column logs;
-  {
-    const py::gil_scoped_release others;
+  reading([&] {
     OpenLogs open(paths);
     if (paths.size() > 1 && sql.find("counted_kicks") != std::string::npos) open.opportunities(false);
     for (const evaluator::OpenLog& log : open.logs()) {
       const auto head = [&](const std::vector<std::string>& heads) {
+        require_distinct(heads, paths.size() > 1);
         names = heads;
         columns.resize(names.size());
       };
@@ -57,7 +67,7 @@ py::tuple ask(const std::vector<std::string>& paths, const std::string& sql) {
         evaluator::ask_counted(*log.reader, log.name, sql, head, row);
       }
     }
-  }
+  });
   py::list arrays;
   for (Column& column : columns) arrays.append(column.arrays());
   return py::make_tuple(names, arrays, logs.arrays());
@@ -113,20 +123,18 @@ void add_opportunity(Columns& row, const evaluator::LoggedOpportunities& logged,
 py::tuple opportunities(const std::vector<std::string>& paths, bool truth) {
   Columns columns;
   std::vector<std::string> remarks;
-  {
-    const py::gil_scoped_release others;
+  reading([&] {
     const evaluator::LoggedOpportunities logged = OpenLogs(paths).opportunities(truth);
     for (const evaluator::LoggedOpportunity& row : logged.rows) add_opportunity(columns, logged, row);
     remarks = logged.remarks;
-  }
+  });
   return py::make_tuple(columns.arrays(), remarks);
 }
 
 /// The sessions as counting sees them.
 py::dict sessions(const std::vector<std::string>& paths) {
   Columns row;
-  {
-    const py::gil_scoped_release others;
+  reading([&] {
     const evaluator::LoggedOpportunities logged = OpenLogs(paths).opportunities(false);
     for (const evaluator::ComparedSession& session : logged.sessions) {
       row.begin_row();
@@ -147,19 +155,21 @@ py::dict sessions(const std::vector<std::string>& paths) {
       row.add("table", session.table);
       row.add("calibration_id", session.calibration_id);
     }
-  }
+  });
   return row.arrays();
 }
 
 /// Sentences on sessions that were not closed, on lost rows, and on what was not verified.
 std::vector<std::string> warnings(const std::vector<std::string>& paths) {
-  std::vector<std::string> sentences;
-  const OpenLogs open(paths);
-  for (const evaluator::OpenLog& log : open.logs()) {
-    for (const std::string& warning : log.reader->warnings()) sentences.push_back(warning);
-    if (const auto doubt = log.reader->doubt()) sentences.push_back(*doubt);
-  }
-  return sentences;
+  return reading([&] {
+    std::vector<std::string> sentences;
+    const OpenLogs open(paths);
+    for (const evaluator::OpenLog& log : open.logs()) {
+      for (const std::string& warning : log.reader->warnings()) sentences.push_back(warning);
+      if (const auto doubt = log.reader->doubt()) sentences.push_back(*doubt);
+    }
+    return sentences;
+  });
 }
 
 /// {column: (kind, meaning)} of every stream of a log; of columns of one name the first.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "log/file/ask_to_stop.hpp"
 #include "log/schema/schema_check.hpp"
 
 namespace trivela::log {
@@ -154,7 +155,7 @@ void OwnRows::each_row(std::string_view sql, const HeadFunction& head, const Row
 struct LogFile::Budget {
   std::int64_t calls = 0;
 
-  static int spend(void* budget) { return --static_cast<Budget*>(budget)->calls < 0 ? 1 : 0; }
+  static int spend(void* budget) { return --static_cast<Budget*>(budget)->calls < 0 || AskToStop::says_stop() ? 1 : 0; }
 };
 
 LogFile::LogFile(const fs::path& path, const LogKind& kind, Check check)

@@ -23,7 +23,7 @@ class Log:
 
     The logs are only read, and opened anew for each question: a log that is still being recorded may have gained rows.
     In the data frames numbers are float64 (NaN: there is none), truths boolean, whole numbers int64, or Int64 where some are
-    missing, names str (None: there is none). Units are in the columns' names; `meaning` explains a column.
+    missing, names str (None: there is none). Units are in the columns' names; `meaning` explains a column. Ctrl-C ends a question.
 
     Raises FileNotFoundError where a log is not there, ValueError where a file is no match log.
     """
@@ -38,7 +38,8 @@ class Log:
 
     def query(self, sql: str) -> pandas.DataFrame:
         """The rows of one SELECT, as `trivela query`: tables and columns are those of log/schema/schema.sql, the view counted_kicks has
-        each kick once. Of several logs each is asked, and `log` says which a row is from. Raises ValueError where the log cannot be asked that.
+        each kick once. Of several logs each is asked, and `log` says which a row is from. Raises ValueError where the log cannot be asked that, or
+        where two columns have one name.
         """
         names, columns, logs = _trivela.ask(self.paths, sql)
         table = frame(dict(zip(names, columns)))

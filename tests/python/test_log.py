@@ -1,4 +1,9 @@
+import pathlib
+import signal
 import sqlite3
+import subprocess
+import sys
+import time
 
 import numpy
 import pandas
@@ -98,6 +103,57 @@ def test_questions_of_ones_own(experiment):
         log.query("DROP TABLE referee")
     with pytest.raises(ValueError, match="there is no metric 'goals'"):
         log.metric("goals")
+
+
+def test_two_columns_of_one_name_are_refused(experiment, tmp_path):
+    log = trivela.Log(experiment)
+    with pytest.raises(ValueError, match="^two columns are called 'a': name them with AS$"):
+        log.query("SELECT 1 a, 2 a")
+    assert "two columns are called 'a'" in refusal("query", experiment, "--json", "SELECT 1 a, 2 a")
+    assert list(log.query("SELECT 1 a, 2 b, 3 log").columns) == ["a", "b", "log"]
+    other = tmp_path / "other.db"
+    other.write_bytes(pathlib.Path(experiment).read_bytes())
+    with pytest.raises(ValueError, match="two columns are called 'log'"):
+        trivela.Log(experiment, other).query("SELECT 1 log")
+
+
+ENDLESS = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT {} FROM n"
+
+
+@pytest.mark.parametrize("wanted", ["max(i)", "i"])
+def test_ctrl_c_ends_a_question(experiment, wanted):
+    script = f"""import sys, trivela
+log = trivela.Log(sys.argv[1])
+print("asks", flush=True)
+try:
+    log.query("{ENDLESS.format(wanted)}")
+except KeyboardInterrupt:
+    print("interrupted", len(log.query("SELECT 1 a")))
+"""
+    asks = subprocess.Popen([sys.executable, "-c", script, experiment], stdout=subprocess.PIPE, text=True)
+    try:
+        assert asks.stdout.readline() == "asks\n"
+        time.sleep(0.3)
+        asks.send_signal(signal.SIGINT)
+        assert asks.communicate(timeout=20)[0] == "interrupted 1\n"  # 0.1 s on an idle machine
+    finally:
+        asks.kill()
+
+
+def test_what_a_signal_handler_raises_ends_a_question(experiment):
+    class Enough(Exception):
+        pass
+
+    def enough(*_):
+        raise Enough
+
+    before = signal.signal(signal.SIGALRM, enough)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.2)
+        with pytest.raises(Enough):
+            trivela.Log(experiment).query(ENDLESS.format("max(i)"))
+    finally:
+        signal.signal(signal.SIGALRM, before)
 
 
 def test_a_file_that_is_no_log_is_refused_in_the_programs_words(tmp_path):
