@@ -5,7 +5,7 @@
 
 #include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/table2/table2.hpp"
-#include "python/arrays.hpp"
+#include "python/checks.hpp"
 #include "python/signals.hpp"
 
 namespace trivela::python {
@@ -21,10 +21,10 @@ Texts compare_logs(const std::vector<std::string>& logs, const evaluator::Compar
 }
 
 evaluator::NamedCounts counts_of(const std::string& name, std::int64_t inside, std::int64_t n) {
-  if (inside < 0 || n < 0) throw py::value_error(fmt::format("{}: a count cannot be negative", name));
+  const evaluator::stats::Counts counts{inside, n};
+  require_counts(name, name, counts);
   if (n == 0) throw py::value_error(fmt::format("{}: without a kick there is nothing to compare", name));
-  if (inside > n) throw py::value_error(fmt::format("{}: {} inside of only {} kicks", name, inside, n));
-  return {name, {inside, n}};
+  return {name, counts};
 }
 
 using Group = std::tuple<std::string, std::int64_t, std::int64_t>;

@@ -11,13 +11,22 @@
 #include "kicking/alignment/release_predictor.hpp"
 #include "kicking/ballistics/flight.hpp"
 #include "kicking/ballistics/moving_kick.hpp"
-#include "python/arrays.hpp"
+#include "python/checks.hpp"
+#include "sim/scenario_fields.hpp"
 
 namespace trivela::python {
 namespace {
 
+/// A robot and where it was read, so that another process can read it again.
+struct FileRobot : config::Robot {
+  explicit FileRobot(const std::filesystem::path& path)
+      : config::Robot(config::load_robot(path)), file(std::filesystem::absolute(path)) {}
+
+  std::filesystem::path file;
+};
+
 template <double kicking::SetPoint::*column>
-py::array_t<double> set_points(const config::Robot& robot) {
+py::array_t<double> set_points(const FileRobot& robot) {
   std::vector<double> values;
   for (const kicking::SetPoint& point : robot.model.table.set_points()) values.push_back(point.*column);
   return array_of(std::move(values));
@@ -26,17 +35,20 @@ py::array_t<double> set_points(const config::Robot& robot) {
 }  // namespace
 
 void add_robots(py::module_& module) {
-  py::class_<config::Robot>(
+  py::class_<FileRobot>(
       module, "Robot",
-      "A robot's file, such as config/robots/cambada_1.toml. Raises ValueError naming file, line, key and value.")
-      .def(py::init([](const std::filesystem::path& file) { return config::load_robot(file); }))
-      .def_readonly("name", &config::Robot::name)
-      .def_readonly("source", &config::Robot::source)
+      "A robot's file, such as config/robots/cambada_1.toml. Raises ValueError naming file, line, key and value.\n"
+      "A pickle of it has the file's path, which is read again.")
+      .def(py::init<const std::filesystem::path&>())
+      .def(py::pickle([](const FileRobot& robot) { return robot.file; },
+                      [](const std::filesystem::path& file) { return FileRobot(file); }))
+      .def_readonly("name", &FileRobot::name)
+      .def_readonly("source", &FileRobot::source)
       .def_property_readonly("powers", set_points<&kicking::SetPoint::power>)
       .def_property_readonly("speeds_mps", set_points<&kicking::SetPoint::speed_mps>)
-      .def_property_readonly("exit_angle_rad", [](const config::Robot& robot) { return robot.model.exit_angle_rad; })
-      .def_property_readonly("delay_s", [](const config::Robot& robot) { return robot.model.delay_s; })
-      .def_property_readonly("ball_offset_m", [](const config::Robot& robot) { return robot.model.ball_offset_m; });
+      .def_property_readonly("exit_angle_rad", [](const FileRobot& robot) { return robot.model.exit_angle_rad; })
+      .def_property_readonly("delay_s", [](const FileRobot& robot) { return robot.model.delay_s; })
+      .def_property_readonly("ball_offset_m", [](const FileRobot& robot) { return robot.model.ball_offset_m; });
 }
 
 namespace {
@@ -44,6 +56,14 @@ namespace {
 using Numbers = Flat<double>;
 
 struct Flight {
+  Flight(double gravity, double ball_radius, double ball_mass, double air_density)
+      : gravity_mps2(gravity), ball_radius_m(ball_radius), ball_mass_kg(ball_mass), air_density_kgpm3(air_density) {
+    require_within("gravity_mps2", gravity_mps2, range_of<sim::BallPhysics>("gravity_mps2"));
+    require_ball_radius(ball_radius_m);
+    require_within("ball_mass_kg", ball_mass_kg, range_of<sim::BallPhysics>("mass_kg"));
+    require_within("air_density_kgpm3", air_density_kgpm3, range_of<sim::BallPhysics>("air_density_kgpm3"));
+  }
+
   double gravity_mps2, ball_radius_m, ball_mass_kg, air_density_kgpm3;
 
   kicking::Ball ball() const { return {.mass_kg = ball_mass_kg, .radius_m = ball_radius_m}; }
@@ -103,7 +123,7 @@ struct Solutions {
 
 py::dict solve(const Numbers& distance_m, const Numbers& height_m, const Numbers& exit_angle_rad,
                const Numbers& v_front_mps, const Numbers& transfer, const std::optional<Numbers>& drag_coefficient,
-               const std::optional<config::Robot>& robot, const Flight& flight) {
+               const std::optional<FileRobot>& robot, const Flight& flight) {
   const auto d = span_of(distance_m), h = span_of(height_m), angle = span_of(exit_angle_rad), v = span_of(v_front_mps),
              k = span_of(transfer), drag = drag_coefficient ? span_of(*drag_coefficient) : std::span<const double>();
   require_positive("distance_m", d);
@@ -214,10 +234,17 @@ py::dict predict(const Numbers& x_m, const Numbers& y_m, const Numbers& heading_
 
 void add_kicks(py::module_& module) {
   const kicking::Ball ball;
-  py::class_<Flight>(module, "Flight", "What a flight depends on beside its kick: gravity, the ball and the air.")
+  py::class_<Flight>(module, "Flight",
+                     "What a flight depends on beside its kick: gravity, the ball and the air.\n"
+                     "Raises ValueError for a number outside the range that a scenario allows.")
       .def(py::init<double, double, double, double>(), py::kw_only(), py::arg("gravity_mps2") = kicking::kGravity_mps2,
            py::arg("ball_radius_m") = ball.radius_m, py::arg("ball_mass_kg") = ball.mass_kg,
            py::arg("air_density_kgpm3") = kicking::Air{}.density_kgpm3)
+      .def(py::pickle(
+          [](const Flight& flight) {
+            return std::tuple(flight.gravity_mps2, flight.ball_radius_m, flight.ball_mass_kg, flight.air_density_kgpm3);
+          },
+          [](const std::tuple<double, double, double, double>& state) { return std::make_from_tuple<Flight>(state); }))
       .def_readonly("ball_radius_m", &Flight::ball_radius_m);
   module.def("solve", solve);
   module.def("align", align);

@@ -9,10 +9,11 @@
 #include "evaluator/stats/confidence_sequence.hpp"
 #include "evaluator/stats/counts/exact.hpp"
 #include "evaluator/stats/counts/interval.hpp"
+#include "evaluator/stats/counts/most_kicks.hpp"
 #include "evaluator/stats/paired.hpp"
 #include "evaluator/stats/poisson.hpp"
 #include "evaluator/stats/test_plan.hpp"
-#include "python/arrays.hpp"
+#include "python/checks.hpp"
 
 namespace trivela::python {
 namespace {
@@ -34,26 +35,21 @@ Cells<3> cells(const stats::PosteriorDifference& posterior) {
   return {posterior.median, posterior.central.lo, posterior.central.hi};
 }
 
-void require_counts(const char* inside_name, const char* n_name, const Whole& inside, const Whole& n) {
+void require_all_counts(const char* inside_name, const char* n_name, const Whole& inside, const Whole& n) {
   const auto k = span_of(inside), all = span_of(n);
   for (std::size_t i = 0; i < k.size(); ++i) {
-    if (k[i] >= 0 && k[i] <= all[i]) continue;
-    throw py::value_error(k[i] < 0 || all[i] < 0
-                              ? fmt::format("{}[{}]: a count cannot be negative", k[i] < 0 ? inside_name : n_name, i)
-                              : fmt::format("{}[{}]: {} inside of only {} kicks", inside_name, i, k[i], all[i]));
+    if (k[i] >= 0 && k[i] <= all[i] && all[i] <= stats::kMaxKicks) continue;  // without making up names
+    require_counts(fmt::format("{}[{}]", inside_name, i), fmt::format("{}[{}]", n_name, i), {k[i], all[i]});
   }
 }
 
-void require_confidence(double confidence) {
-  if (!(confidence > 0.0 && confidence < 1.0))
-    throw py::value_error(fmt::format("confidence {:g} is not between 0 and 1", confidence));
-}
+void require_confidence(double confidence) { require_level("confidence", confidence); }
 
 /// Rows of `f` for one group of kicks: (inside, n, confidence).
 template <class F>
 auto of_group(F f) {
   return [f](const Whole& inside, const Whole& n, double confidence) {
-    require_counts("inside", "n", inside, n);
+    require_all_counts("inside", "n", inside, n);
     require_confidence(confidence);
     std::vector<double> flat;
     const auto k = span_of(inside), all = span_of(n);
@@ -72,8 +68,8 @@ template <class F>
 auto of_groups(F f) {
   return [f](const Whole& older_inside, const Whole& older_n, const Whole& newer_inside, const Whole& newer_n,
              double confidence) {
-    require_counts("older_inside", "older_n", older_inside, older_n);
-    require_counts("newer_inside", "newer_n", newer_inside, newer_n);
+    require_all_counts("older_inside", "older_n", older_inside, older_n);
+    require_all_counts("newer_inside", "newer_n", newer_inside, newer_n);
     require_confidence(confidence);
     std::vector<double> flat;
     const auto k1 = span_of(older_inside), n1 = span_of(older_n), k2 = span_of(newer_inside), n2 = span_of(newer_n);
@@ -95,15 +91,18 @@ auto of_counts(F f) {
 
 stats::PairedCounts pairs_of(std::int64_t both, std::int64_t newer_only, std::int64_t older_only,
                              std::int64_t neither) {
-  if (both < 0 || newer_only < 0 || older_only < 0 || neither < 0)
-    throw py::value_error("a count of pairs cannot be negative");
+  require_count("both", both);
+  require_count("newer_only", newer_only);
+  require_count("older_only", older_only);
+  require_count("neither", neither);
   return {both, newer_only, older_only, neither};
 }
 
-stats::Rate rate_of(std::int64_t events, double minutes) {
-  if (events < 0) throw py::value_error("a count cannot be negative");
+/// `whose`: what the arguments' names begin with.
+stats::Rate rate_of(const std::string& whose, std::int64_t events, double minutes) {
+  require_count(whose + "events", events);
   if (!(minutes > 0.0 && std::isfinite(minutes)))
-    throw py::value_error(fmt::format("minutes {:g}: is not above 0", minutes));
+    throw py::value_error(fmt::format("{}minutes {:g}: is not above 0", whose, minutes));
   return {events, minutes};
 }
 
@@ -154,8 +153,10 @@ void add_pairs_and_plans(py::module_& module) {
   module.def(
       "kicks_per_policy",
       [](double p1, double p2, double power, double alpha) {
-        const double shares[] = {p1, p2, power, alpha};
-        require("p1, p2, power, alpha", shares, "is not from 0 to 1", [](double p) { return p >= 0.0 && p <= 1.0; });
+        require_within("p1", p1, {0.0, 1.0});
+        require_within("p2", p2, {0.0, 1.0});
+        require_level("power", power);
+        require_level("alpha", alpha);
         return stats::kicks_per_policy(p1, p2, power, alpha);
       },
       "Kicks of each policy with which the two-sided test of level alpha finds p1 against p2 with this power (R's\n"
@@ -166,14 +167,14 @@ void add_pairs_and_plans(py::module_& module) {
 void add_rates(py::module_& module) {
   module.def("rate_interval", [](std::int64_t events, double minutes, double confidence) {
     require_confidence(confidence);
-    return cells(stats::rate_interval(rate_of(events, minutes), confidence));
+    return cells(stats::rate_interval(rate_of("", events, minutes), confidence));
   });
   module.def("rate_ratio",
              [](std::int64_t older_events, double older_minutes, std::int64_t newer_events, double newer_minutes,
                 double confidence) -> std::optional<Cells<4>> {
                require_confidence(confidence);
-               const auto ratio = stats::rate_ratio(rate_of(older_events, older_minutes),
-                                                    rate_of(newer_events, newer_minutes), confidence);
+               const auto ratio = stats::rate_ratio(rate_of("older_", older_events, older_minutes),
+                                                    rate_of("newer_", newer_events, newer_minutes), confidence);
                if (!ratio) return std::nullopt;
                return Cells<4>{ratio->value, ratio->ci.lo, ratio->ci.hi, ratio->p};
              });

@@ -15,10 +15,13 @@
 #include "evaluator/compare/policy_comparison.hpp"
 #include "evaluator/render/gate.hpp"
 #include "evaluator/render/json_values.hpp"
+#include "evaluator/stats/counts/most_kicks.hpp"
 #include "kicking/text/printable.hpp"
 
 namespace trivela::cli {
 namespace {
+
+using evaluator::stats::kMaxKicks;
 
 struct CompareArguments {
   std::vector<std::string> logs;

@@ -18,10 +18,15 @@ def flat(*arguments: Any, kind: Any = numpy.float64) -> tuple[tuple[int, ...], l
 
 
 def _numbers(argument: Any, kind: Any) -> numpy.ndarray[Any, Any]:
+    if isinstance(argument, numpy.ma.MaskedArray) and numpy.any(argument.mask):
+        raise ValueError("an array hides numbers under its mask: leave them out or fill them")
     array = numpy.asarray(argument)
-    if kind is numpy.int64 and not numpy.issubdtype(array.dtype, numpy.integer):
-        if not numpy.all(array == numpy.floor(array)):
-            raise ValueError("counts are whole numbers")
+    if kind is numpy.int64 and not numpy.can_cast(array.dtype, numpy.int64):
+        with numpy.errstate(invalid="ignore"):
+            if not numpy.all(array % 1 == 0):
+                raise ValueError("counts are whole numbers")
+        if not numpy.all(abs(array) < 2**63):
+            raise ValueError(f"a count cannot be {array.flat[numpy.argmax(abs(array))]}")
     return array.astype(kind)
 
 

@@ -124,7 +124,8 @@ def predict(
 def judge(x_cross_m: ArrayLike, z_cross_m: ArrayLike, *, goal: Goal = Goal(), ball_radius_m: float = 0.11) -> numpy.ndarray[Any, Any]:
     """One of OUTCOMES for each ball whose centre crosses the goal line at x [m], z [m over the floor], in the arguments' common shape.
 
-    NaN is "unknown". A ball that bounced or rolls counts as inside; "short" and "blocked" never cross.
+    NaN is "unknown". A ball that bounced or rolls counts as inside; "short" and "blocked" never cross. Raises ValueError for a
+    ball_radius_m outside 0.02 to 0.25 m.
     """
     shape, (x, z) = flat(x_cross_m, z_cross_m)
     return numpy.asarray(OUTCOMES)[_trivela.judge(x, z, goal, ball_radius_m)].reshape(shape)

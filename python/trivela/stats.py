@@ -2,7 +2,8 @@
 
 Counts may have any shapes that numpy brings to one. An interval has that shape with one axis more, for low and high end; a ratio or
 a posterior difference three numbers: value, low, high. NaN: there is no such number. Two groups are the older and the newer one, and
-a difference is newer - older. Raises ValueError for counts that make no sense and a confidence that is not between 0 and 1.
+a difference is newer - older. Raises ValueError for counts that make no sense or lie above 1e9, and for a
+confidence that is not between 0 and 1.
 """
 from __future__ import annotations
 
@@ -132,5 +133,7 @@ def rate_ratio(
 
 def holm(p: ArrayLike) -> Array:
     """p values adjusted by Holm's step-down method (1979), in their order and shape."""
-    array = numpy.asarray(p, dtype=numpy.float64)
-    return _trivela.holm(array.ravel()).reshape(array.shape)
+    from ._arrays import flat
+
+    shape, (flat_p,) = flat(p)
+    return _trivela.holm(flat_p).reshape(shape)

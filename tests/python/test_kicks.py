@@ -1,4 +1,5 @@
 import math
+import pickle
 import threading
 
 import numpy
@@ -86,6 +87,49 @@ def test_outcomes_are_those_of_the_goals_geometry():
     assert p.shape == (2, 2)
     numpy.testing.assert_allclose(sum(p[name] for name in p.dtype.names), 1.0, atol=1e-12)
     assert p[0, 0].on_target > 0.99 > p[1, 0].on_target
+
+
+@pytest.mark.parametrize("made, name, values", [
+    (trivela.Flight, "gravity_mps2", (0.0, -9.81)),
+    (trivela.Flight, "ball_radius_m", (0.01, 0.3)),
+    (trivela.Flight, "ball_mass_kg", (0.0,)),
+    (trivela.Flight, "air_density_kgpm3", (-0.1,)),
+    (trivela.Goal, "y_m", ()),
+    (trivela.Goal, "half_width_m", (0.0, -1.0)),
+    (trivela.Goal, "height_m", (0.0, -1.0)),
+    (trivela.Goal, "post_width_m", (-0.1,)),
+    (lambda **radius: trivela.judge(0.0, 0.5, **radius), "ball_radius_m", (-0.11, 0.0, 0.3)),
+    (lambda **radius: trivela.judge_probabilities(0.0, 0.1, 0.5, 0.1, **radius), "ball_radius_m", (0.0, 0.3)),
+])
+def test_numbers_are_held_to_the_configurations_ranges(made, name, values):
+    for value in (numpy.nan, numpy.inf, -numpy.inf, *values):
+        with pytest.raises(ValueError, match=f"^{name}: '{value:g}' is not from "):
+            made(**{name: value})
+    with pytest.raises(ValueError, match="^ball_radius_m: '0.3' is not from 0.02 to 0.25$"):
+        trivela.judge(0.0, 0.5, ball_radius_m=0.3)
+
+
+def test_a_ball_of_another_size_and_a_goal_without_frame_are_possible():
+    assert trivela.judge(0.95, 0.5, goal=trivela.Goal(post_width_m=0.0), ball_radius_m=0.02) == "on_target"
+    assert trivela.solve(3.0, 0.4, 0.6, flight=trivela.Flight(gravity_mps2=1.62)).v0_mps < trivela.solve(3.0, 0.4, 0.6).v0_mps
+
+
+def test_robots_goals_and_flights_go_to_other_processes(tmp_path, monkeypatch):
+    goal = pickle.loads(pickle.dumps(trivela.Goal(y_m=11.0, half_width_m=1.2, height_m=1.1, post_width_m=0.1)))
+    assert (goal.y_m, goal.half_width_m, goal.height_m, goal.post_width_m) == (11.0, 1.2, 1.1, 0.1)
+    monkeypatch.chdir(ROOT)
+    robot = trivela.Robot("config/robots/cambada_1.toml")
+    flight = trivela.Flight(gravity_mps2=9.8, ball_radius_m=0.1, ball_mass_kg=0.4, air_density_kgpm3=1.1)
+    here = trivela.solve(5.0, 0.4, 0.6, 0.5, 1.0, 0.25, robot=robot, flight=flight)
+    monkeypatch.chdir(tmp_path)
+    robot, flight = pickle.loads(pickle.dumps((robot, flight)))
+    assert trivela.solve(5.0, 0.4, 0.6, 0.5, 1.0, 0.25, robot=robot, flight=flight) == here
+
+
+def test_what_a_mask_hides_is_refused():
+    with pytest.raises(ValueError, match="mask"):
+        trivela.solve(numpy.ma.masked_less([3.0, -1.0], 0.0), 0.4, 0.6)
+    assert trivela.solve(numpy.ma.masked_less([3.0, 4.0], 0.0), 0.4, 0.6).shape == (2,)
 
 
 def test_bad_numbers_are_refused_in_the_programs_words():

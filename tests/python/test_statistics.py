@@ -78,7 +78,71 @@ def test_counts_that_make_no_sense_are_refused():
         stats.wilson(0.5, 3)
     with pytest.raises(ValueError, match="confidence 2 is not between 0 and 1"):
         stats.wilson(1, 3, confidence=2)
+    with pytest.raises(ValueError, match="confidence nan is not between 0 and 1"):
+        stats.wilson(1, 3, confidence=float("nan"))
     with pytest.raises(ValueError, match="without a kick there is nothing to compare"):
         trivela.compare_counts(("old", 0, 0), ("new", 1, 2))
     with pytest.raises(ValueError, match="smallest-effect"):
         trivela.compare_counts(("old", 1, 2), ("new", 1, 2), smallest_effect=3.0)
+
+
+GROUPS = ("newcombe", "agresti_caffo", "difference_sequence", "risk_ratio", "odds_ratio", "posterior_difference", "fisher_one_sided", "fisher_two_sided",
+          "boschloo_one_sided", "boschloo_two_sided", "p_newer_better", "expected_loss_of_newer", "always_valid_p")
+
+
+def test_counts_that_the_program_refuses_are_refused():
+    most = 10**9
+    assert f"more than {most} kicks" in refusal("compare", "--counts", f"a=1/{most + 1}", "b=1/2")
+    for name in ("wilson", "clopper_pearson", "confidence_sequence"):
+        assert getattr(stats, name)(1, most).shape == (2,)
+        with pytest.raises(ValueError, match=rf"^n\[0\]: '{most + 1}' is more than {most}$"):
+            getattr(stats, name)(1, most + 1)
+    with pytest.raises(ValueError, match="is more than"):
+        stats.clopper_pearson(10**15, 10**16)
+    for name in GROUPS:
+        with pytest.raises(ValueError, match=r"^newer_n\[0\]: '1000000001' is more than"):
+            getattr(stats, name)(1, 2, 1, most + 1)
+    for counts, name in (((most + 1, 0, 0, 0), "both"), ((0, most + 1, 0, 0), "newer_only"), ((0, 0, -1, 0), "older_only"), ((0, 0, 0, -1), "neither")):
+        for test in (stats.mcnemar, stats.paired_newcombe):
+            with pytest.raises(ValueError, match=f"^{name}: '"):
+                test(*counts)
+    with pytest.raises(ValueError, match="^events: '1000000001' is more than"):
+        stats.rate_interval(most + 1, 1.0)
+    with pytest.raises(ValueError, match="^newer_events: '-1': a count cannot be negative"):
+        stats.rate_ratio(1, 1.0, -1, 1.0)
+    with pytest.raises(ValueError, match="^new: '1000000001' is more than"):
+        trivela.compare_counts(("old", 1, 2), ("new", 1, most + 1))
+
+
+@pytest.mark.parametrize("count", [1e300, 2.0**63, 10**30, 2**64 - 1])
+def test_counts_beyond_64_bits_are_refused(count):
+    with pytest.raises(ValueError, match="a count cannot be"):
+        stats.wilson(1, count)
+
+
+@pytest.mark.parametrize("count", [float("nan"), float("inf"), 0.5])
+def test_counts_are_whole(count):
+    with pytest.raises(ValueError, match="whole numbers"):
+        stats.wilson(1, count)
+
+
+def test_levels_at_0_or_1_are_refused():
+    near = numpy.nextafter(1.0, 0.0)
+    with pytest.raises(ValueError, match="^confidence 0.9999999999999999 is nearer to 0 or 1 than 1e-15$"):
+        stats.wilson(1, 3, confidence=near)
+    for power, alpha, name in ((1.0, 0.05, "power"), (0.0, 0.05, "power"), (near, 0.05, "power"), (1e-300, 0.05, "power"), (0.8, 0.0, "alpha"), (0.8, 1e-20, "alpha")):
+        with pytest.raises(ValueError, match=f"^{name} "):
+            stats.kicks_per_policy(0.5, 0.6, power, alpha)
+    with pytest.raises(ValueError, match="^p2: '1.5' is not from 0 to 1$"):
+        stats.kicks_per_policy(0.5, 1.5)
+    for level in (1.1e-15, 1.0 - 1.2e-15):
+        assert numpy.isfinite(stats.clopper_pearson(3, 10, level)).all() and numpy.isfinite(stats.newcombe(*TABLE2, level)).all()
+        assert stats.kicks_per_policy(0.5, 0.6, level, level) >= 0.0
+        stats.rate_ratio(3, 1.0, 5, 1.0, level)
+
+
+def test_what_a_mask_hides_is_refused():
+    with pytest.raises(ValueError, match="mask"):
+        stats.wilson(numpy.ma.masked_greater([1, 5], 3), 10)
+    with pytest.raises(ValueError, match="mask"):
+        stats.holm(numpy.ma.masked_greater([0.1, 0.5], 0.3))
