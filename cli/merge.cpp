@@ -25,7 +25,7 @@ struct MergeArguments {
   std::optional<int> reference_robot;
 };
 
-/// Tells how many rows are copied, by a line that ends with the last copy of the function.
+/// Shows how many rows are copied; the line ends when the function is destroyed.
 std::function<bool(std::int64_t, std::int64_t)> copied() {
   return [bar = std::make_shared<StoppableBar>()](std::int64_t read, std::int64_t all) {
     return bar->show(static_cast<double>(read), static_cast<double>(all), "rows", "copied");

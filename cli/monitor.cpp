@@ -1,5 +1,3 @@
-
-
 #include "cli/launch/signals.hpp"
 #include "cli/options/bus.hpp"
 #include "cli/team/valid_team.hpp"

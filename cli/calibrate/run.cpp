@@ -1,8 +1,8 @@
-
 #include <fmt/core.h>
 
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/calibrate/robot_file.hpp"

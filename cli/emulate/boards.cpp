@@ -105,8 +105,8 @@ void take_faults(const std::vector<std::string>& faults, const FaultNumbers& num
   }
 }
 
-/// A kicker's board, with each pulse of its coil. `numbers`: of the faults, but for its cable's. `armed`: its switch.
-/// `length_us` is that of a pulse.
+/// Emulates a kicker's board and says each pulse of its coil, of length_us(pulse). `numbers`: what each fault sets;
+/// "unplug" is added here. `armed`: the member that is its switch.
 template <class Emulator, class Board>
 int emulate_board(const EmulateBoardFlags& flags, const auto& faults, FaultNumbers numbers, bool Board::*armed,
                   const auto& length_us) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/hardware/device_probes.hpp"
@@ -20,8 +21,12 @@ namespace trivela::cli {
 /// Calls `last` when it goes, by whichever way that is.
 template <class Last>
 struct Afterwards {
-  Last last;
+  explicit Afterwards(Last called) : last(std::move(called)) {}
+  Afterwards(const Afterwards&) = delete;
+  Afterwards& operator=(const Afterwards&) = delete;
   ~Afterwards() { last(); }
+
+  Last last;
 };
 template <class Last>
 Afterwards(Last) -> Afterwards<Last>;

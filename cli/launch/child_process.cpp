@@ -23,7 +23,7 @@ constexpr std::chrono::seconds kGrace{5};
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  if (output == ChildProcess::kNobody) output = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (output == ChildProcess::kNobody && (output = open("/dev/null", O_WRONLY | O_CLOEXEC)) < 0) _exit(127);
   if (output >= 0) dup2(output, STDOUT_FILENO);
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));

@@ -57,7 +57,7 @@ void check_key_nodes(const KeyFlags& flags) try {
   throw UsageError{fmt::format("--node: {}", error.what())};
 }
 
-/// Issues keys of the robots that are named, after `first`.
+/// Issues keys of the robots that are named, after it has called `first`, where that is one.
 int make_keys(const KeyFlags& flags, void (security::KeyFolder::*first)(const security::Validity&) const) {
   check_key_nodes(flags);
   const auto validity = asked_validity(flags);

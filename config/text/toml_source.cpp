@@ -34,14 +34,30 @@ std::string text_of(const toml::node& node) {
   return out.str();
 }
 
-/// A table within a table for each part of a key: of too many the stack is too small. Throws Error.
+/// A table within a table for each part of a key: of too many the stack is too small. Texts and comments have no keys.
+/// Throws Error.
 void refuse_deep_keys(std::string_view text, const std::string& name) {
   constexpr int kMostParts = 100;
   int line = 1, parts = 1;
+  char quote = '\0';  // of the text that is open
+  bool comment = false, escaped = false;
   for (const char c : text) {
-    if (c == '\n') ++line;
-    parts = std::string_view{"=,#[]{}\n"}.find(c) != std::string_view::npos ? 1 : parts + (c == '.' ? 1 : 0);
-    if (parts > kMostParts) throw Error{fmt::format("{}:{}: a key of more than {} parts", name, line, kMostParts)};
+    if (c == '\n') {
+      ++line;
+      comment = false;
+    }
+    if (comment) continue;
+    if (quote != '\0') {
+      if (!escaped && c == quote) quote = '\0';
+      escaped = !escaped && c == '\\' && quote == '"';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (std::string_view{"=,[]{}#\n"}.find(c) != std::string_view::npos) {
+      parts = 1;
+      comment = c == '#';
+    } else if (c == '.' && ++parts > kMostParts) {
+      throw Error{fmt::format("{}:{}: a key of more than {} parts", name, line, kMostParts)};
+    }
   }
 }
 
@@ -200,7 +216,8 @@ void TableReader::require(std::string_view key, const std::function<void()>& che
   try {
     check();
   } catch (const std::invalid_argument& wrong) {
-    fail(key, *table_.get(key), wrong.what());
+    if (const toml::node* const node = table_.get(key)) fail(key, *node, wrong.what());
+    throw Error{fmt::format("{}: {}{}{}: {}", file_, section_, section_.empty() ? "" : ".", key, wrong.what())};
   }
 }
 

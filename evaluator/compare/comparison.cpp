@@ -32,6 +32,7 @@ bool Comparison::is_table2() const {
 
 const char* label(stats::Verdict verdict) {
   constexpr std::array kLabels{"better", "better, maybe too small", "equivalent", "worse", "not enough data"};
+  static_assert(kLabels.size() == static_cast<std::size_t>(stats::Verdict::kNotEnoughData) + 1);
   return kLabels.at(static_cast<std::size_t>(verdict));
 }
 

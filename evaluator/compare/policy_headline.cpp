@@ -110,6 +110,7 @@ std::string cause_of(Design design, const std::string& by) {
   constexpr std::array kCauses{"", "; the {} took turns within the matches",
                                ", because of the {}: it was drawn at random",
                                ", because of the {}: both had the same opportunities"};
+  static_assert(kCauses.size() == static_cast<std::size_t>(Design::kPaired) + 1);
   return fmt::format(fmt::runtime(kCauses.at(static_cast<std::size_t>(design))), by);
 }
 

@@ -350,7 +350,7 @@ void keep_first_of_paired_halves(KickDataset& dataset, const LoggedOpportunities
 /// Of a paired dataset the opportunities whose setting all groups played: what else differs is then the same for all.
 /// Throws std::runtime_error where there is no such setting, or a group has an opportunity twice.
 void keep_common_settings(KickDataset& dataset, const std::string& by) {
-  std::map<std::uint32_t, std::set<std::uint32_t>> groups_by_setting;  // by setting
+  std::map<std::uint32_t, std::set<std::uint32_t>> groups_by_setting;
   std::set<std::pair<std::uint32_t, Situation>> seen;
   for (const Opportunity& o : dataset.opportunities) {
     groups_by_setting[o.setting].insert(o.group);

@@ -150,6 +150,7 @@ using log::StreamColumn;
 
 const char* type_of(CellKind kind) {
   constexpr std::array kTypes{"int64", "bool", "float64", "uint8", "string"};
+  static_assert(kTypes.size() == static_cast<std::size_t>(CellKind::kText) + 1);
   return kTypes.at(static_cast<std::size_t>(kind));
 }
 

@@ -39,8 +39,8 @@ std::string markdown_text(std::string_view text);
 /// The same for LaTeX, in text mode. What is not ASCII is left to the engine and its fonts.
 std::string latex_text(std::string_view text);
 
-/// The same for SVG and HTML, with what is no markup as entities; `quotes` too, which an attribute's value needs. What
-/// a terminal could obey stays.
+/// For SVG and HTML: characters that would be markup become entities; `quotes` too, which an attribute's value needs.
+/// What a terminal could obey stays.
 std::string xml_text(std::string_view text, bool quotes);
 
 /// A cell of a CSV (RFC 4180). A text that a spreadsheet would take for a formula has ' before it.

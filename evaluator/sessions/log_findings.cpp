@@ -146,6 +146,7 @@ std::string advice_on(log::Refused why) {
       "trivela merge NEW.db LOG counts them again",
       "trivela merge NEW.db LOG takes what can be read, other recorders' logs the rest; copy the file again if it was "
       "copied"};  // in the order of Refused
+  static_assert(kAdvice.size() == static_cast<std::size_t>(log::Refused::kDamaged) + 1);
   return kAdvice.at(static_cast<std::size_t>(why));
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <string_view>
 
 #include "evaluator/table2/report_parts.hpp"
 #include "evaluator/table2/table2.hpp"

@@ -20,9 +20,9 @@ struct ArmMatch {
 /// Gets the match of every arm.
 using TakeMatch = std::function<void(std::uint32_t match_id, const std::vector<ArmMatch>& arms)>;
 
-/// Plays the matches of the plan's range from `first` on. `take` gets them in the order of their
-/// numbers, whatever order they are played in: one call at a time, by any of the threads, while the others play on.
-/// False: watch.stop asked to stop. Rethrows what `take` and the watch throw.
+/// Plays the matches of the plan's range from `first` on. `take` gets them in the order of their numbers, whatever
+/// order they are played in: one call at a time, by any of the threads, while the others play on. False: watch.stop
+/// asked to stop. Rethrows what `take` and the watch throw.
 bool play_matches(const ExperimentPlan& plan, std::uint32_t first, bool recorded, const ExperimentWatch& watch,
                   const TakeMatch& take);
 

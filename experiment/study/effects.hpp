@@ -58,7 +58,7 @@ Effect contrast(const std::vector<Term>& terms, Measure measure);
 Effect difference(const ArmTally& newer, const ArmTally& older, Measure measure);
 
 /// One arm's share with the interval that `trivela compare` gives it: clustered_wilson() by match and calibration, of
-/// too few matches wilson_or_exact(). None where only one match has any.
+/// too few matches wilson_or_exact(). No interval where fewer than two matches have anything to count.
 Effect share_of(const ArmTally& matches, Measure measure);
 
 /// Kicks of `newer` over kicks of `older`, the interval that of the logarithm, by the same linearisation. None where

@@ -26,8 +26,8 @@ struct StudyPlayed {
   bool keeper = false;                        ///< goals mean something
 };
 
-/// A name of programs, a path in JSON, with its text. What tells a row from the others: "threshold", the text empty
-/// where this row has none. A comparison of a row with others: "minus_first/efficiency", the text its heading.
+/// A name for programs to read, a path in JSON, with its text. What tells a row from the others: "threshold", the text
+/// empty where this row has none. A comparison of a row with others: "minus_first/efficiency", the text its heading.
 struct KeyText {
   std::string key;
   std::string text;

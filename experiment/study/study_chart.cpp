@@ -96,11 +96,13 @@ std::string chart_of(const std::vector<StudyRow>& rows, const std::string& serie
   for (const std::string& line : names.lines) letters = std::max(letters, line.size());
   const double left = 40.0 + kLetter * static_cast<double>(letters);
   std::vector<std::string> titles;
+  titles.reserve(measures.size() + changes.size());
   for (const Measure measure : measures) titles.emplace_back(name_of(measure));
   for (const KeyText& change : changes) titles.push_back(change.text + " [points]");
   std::vector<std::vector<Mark>> marks(titles.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::vector<Effect> effects;
+    effects.reserve(titles.size());
     for (const Measure measure : measures) effects.push_back(share_of(rows[i].matches, measure));
     effects.insert(effects.end(), rows[i].changes.begin(), rows[i].changes.end());
     Mark mark = names.places[i];

@@ -1,3 +1,5 @@
+#include <exception>
+
 #include "log/file/log_check.hpp"
 
 #include <fmt/format.h>

@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 #include "log/file/files_beside.hpp"

@@ -9,7 +9,8 @@
 
 namespace trivela::log {
 
-/// Binds a value to a parameter, from 1: an empty optional as NULL, a bool as 0 or 1. A text must outlive the row.
+/// Binds a value to a parameter, from 1: an empty optional as NULL, a bool as 0 or 1. A text is not copied:
+/// it must live until the statement has run.
 template <class T>
 void bind_value(SQLite::Statement& statement, int place, const T& value) {
   if constexpr (kMayBeNull<T>) {

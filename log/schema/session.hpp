@@ -88,6 +88,7 @@ struct Loss {
 /// Its counters in the order of LossKind.
 inline constexpr std::array kLossCounters{&Loss::lost,        &Loss::gaps,     &Loss::overflow,
                                           &Loss::nan_refused, &Loss::rejected, &Loss::out_of_order};
+static_assert(kLossCounters.size() == static_cast<std::size_t>(LossKind::kOutOfOrder) + 1);
 
 inline Loss& Loss::operator+=(const Loss& other) {
   received += other.received;

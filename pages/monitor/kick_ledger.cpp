@@ -113,6 +113,7 @@ void KickLedger::receive(const msg::KickOutcome& outcome, std::int64_t received_
 std::map<std::optional<PolicyLabel>, KickTally> KickLedger::tallies(const LedgerNow& now) const {
   constexpr std::array kCounters{&KickTally::under_way, &KickTally::refused, &KickTally::inside, &KickTally::outside,
                                  &KickTally::unknown};  // in the order of KickFate
+  static_assert(kCounters.size() == static_cast<std::size_t>(KickFate::kUnknown) + 1);
   std::map<std::optional<PolicyLabel>, KickTally> tallies;
   for (const KnownKick& kick : kicks_) {
     KickTally& tally = tallies[kick.decided ? std::optional{kick.decided->policy} : std::nullopt];

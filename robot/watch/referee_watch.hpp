@@ -24,7 +24,7 @@ enum class RefereePermission {
 };
 
 /// Whether the referee's last command still counts. "Play" does until timeout_s after the command's own t_ns, on the
-/// steady clock, and while its writer is there to take it back. One program is to write commands. Where several do, the
+/// steady clock, and while any writer is there to take it back. One program is to write commands. Where several do, the
 /// stricter one counts: "stop" of any that came within timeout_s. received() and says() are for one thread at a time,
 /// writers() for any.
 class RefereeWatch {
@@ -32,11 +32,11 @@ class RefereeWatch {
   explicit RefereeWatch(double timeout_s) : timeout_s_(timeout_s) {}
 
   /// A command from the future counts as one of now. `writer` tells the programs that write apart.
-  void received(const msg::Referee& word, std::int64_t now_ns, std::uint64_t writer = 0) {
+  void received(const msg::Referee& command, std::int64_t now_ns, std::uint64_t writer = 0) {
     std::erase_if(others_, [&](const Other& other) { return other.writer == writer || is_old(other, now_ns); });
-    if (word_ && writer != writer_ && others_.size() < kMostOthers) others_.push_back({writer_, received_ns_, *word_});
+    if (last_ && writer != writer_ && others_.size() < kMostOthers) others_.push_back({writer_, received_ns_, *last_});
     received_ns_ = now_ns;
-    word_ = Command{std::min(word.t_ns, now_ns), word.playing};
+    last_ = Command{std::min(command.t_ns, now_ns), command.playing};
     writer_ = writer;
     deserted_ = false;
   }
@@ -47,13 +47,13 @@ class RefereeWatch {
   }
 
   RefereePermission says(std::int64_t now_ns) const {
-    if (!word_) return RefereePermission::kNothing;
-    if (!word_->playing || other_stops(now_ns)) return RefereePermission::kStop;
+    if (!last_) return RefereePermission::kNothing;
+    if (!last_->playing || other_stops(now_ns)) return RefereePermission::kStop;
     return deserted_ || age_s(now_ns) > timeout_s_ ? RefereePermission::kSilent : RefereePermission::kPlay;
   }
 
   /// When the last command, which is to play, ceases to count. 0: there is none.
-  std::int64_t counts_until_ns() const { return word_ ? word_->t_ns + kicking::nanoseconds(timeout_s_) : 0; }
+  std::int64_t counts_until_ns() const { return last_ ? last_->t_ns + kicking::nanoseconds(timeout_s_) : 0; }
 
   /// A sentence whenever it falls silent or comes again, or a second program begins to write; none in between.
   std::optional<std::string> news(std::int64_t now_ns) {
@@ -77,24 +77,24 @@ class RefereeWatch {
   struct Other {
     std::uint64_t writer;
     std::int64_t received_ns;
-    Command word;
+    Command command;
   };
   static constexpr std::size_t kMostOthers = 8;
 
-  double age_s(std::int64_t now_ns) const { return kicking::seconds(now_ns - word_->t_ns); }
+  double age_s(std::int64_t now_ns) const { return kicking::seconds(now_ns - last_->t_ns); }
   bool is_old(const Other& other, std::int64_t now_ns) const {
     return kicking::seconds(now_ns - other.received_ns) > timeout_s_;
   }
   bool other_stops(std::int64_t now_ns) const {
     return std::ranges::any_of(others_,
-                               [&](const Other& other) { return !other.word.playing && !is_old(other, now_ns); });
+                               [&](const Other& other) { return !other.command.playing && !is_old(other, now_ns); });
   }
 
   double timeout_s_;
-  std::optional<Command> word_;
-  std::uint64_t writer_ = 0;      // of word_
-  std::int64_t received_ns_ = 0;  // word_
-  std::vector<Other> others_;     // last words of other writers
+  std::optional<Command> last_;
+  std::uint64_t writer_ = 0;      // of last_
+  std::int64_t received_ns_ = 0;  // last_
+  std::vector<Other> others_;     // last commands of other writers
   std::atomic<bool> deserted_ = false;
   bool silent_ = false;
   bool contested_ = false;

@@ -106,11 +106,23 @@ TEST(BadSettings, AMisspeltLogLevelDoesNotSilenceANode) {
                       HasSubstr("expected one of: trace, debug, info, warn, error, off")));
 }
 
+TEST(BadSettings, WhatCodeHasSetIsNamedWithoutALine) {
+  Settings settings;
+  settings.run.log_level = "loud";
+  EXPECT_THAT([&] { override_settings(settings, {"run.robot_id = 2"}); },
+              ::testing::ThrowsMessage<Error>(HasSubstr("run.log_level: expected one of: trace")));
+}
+
 TEST(BadSettings, AKeyOfMorePartsThanAStackHoldsIsRefused) {
   std::string key = "a";
   for (int part = 1; part < 100'000; ++part) key += ".a";
-  for (const std::string& text : {"\n" + key + " = 1\n", "\n[" + key + "]\n", "\nb = {" + key + " = 1}\n"})
+  std::string quoted;
+  for (int part = 1; part < 100'000; ++part) quoted += "\"=\".";
+  for (const std::string& text :
+       {"\n" + key + " = 1\n", "\n[" + key + "]\n", "\nb = {" + key + " = 1}\n", "\n" + quoted + "a = 1\n"})
     EXPECT_THAT(settings_error(text), HasSubstr("bad.toml:2: a key of more than 100 parts"));
+  const std::string dots(200, '.');
+  EXPECT_EQ(settings_error("# don't " + dots + "\nrun.team = \"\\\"" + dots + "\"  # " + dots + "\n"), "accepted");
 }
 
 TEST(BadSettings, BrokenTomlIsNamedWithItsLine) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "evaluator/table2/table2.hpp"
 
 namespace trivela::evaluator {
