@@ -149,11 +149,13 @@ std::unique_ptr<SQLite::Database> new_file(const fs::path& path, const LogKind& 
 
 bool fold(SQLite::Database& database) {
   database.setBusyTimeout(kFoldTimeout_ms);
-  database.exec("PRAGMA optimize; PRAGMA wal_checkpoint(TRUNCATE);");
-  const int code = database.tryExec("PRAGMA journal_mode = DELETE;");
-  if (code == SQLITE_OK) return true;
-  if ((code & 0xFF) == SQLITE_BUSY) return false;
-  throw SQLite::Exception(database.getHandle(), code);
+  for (const char* const step :
+       {"PRAGMA optimize;", "PRAGMA wal_checkpoint(TRUNCATE);", "PRAGMA journal_mode = DELETE;"}) {
+    const int code = database.tryExec(step);
+    if ((code & 0xFF) == SQLITE_BUSY) return false;
+    if (code != SQLITE_OK) throw SQLite::Exception(database.getHandle(), code);
+  }
+  return true;
 }
 
 void stoppable(SQLite::Database& database, const std::function<bool()>& go_on, const std::function<void()>& work) {
