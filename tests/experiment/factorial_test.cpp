@@ -208,7 +208,7 @@ TEST(Factorial, AShareStaysWithinItsBounds) {
   }
 }
 
-// Clopper and Pearson's interval of 6 of 8, R: binom.test(6, 8)$conf.int.
+// Clopper and Pearson's interval of 6 of 8, by bisection of the binomial tails.
 TEST(Factorial, AShareOfMatchesThatAreAlikeByChanceIsNotCertain) {
   const ArmTally alike(2, MatchTally{4, 4, 3});
   const Effect share = share_of(alike, Measure::kEfficiency);
