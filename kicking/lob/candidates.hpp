@@ -28,7 +28,7 @@ struct Cluster {
   std::size_t last = 0;
 };
 
-/// Parts `returns`, which are in the order of their beams, between two neighbours where
+/// Parts `returns`, given in the order of their beams, into clusters. One ends between two neighbours where
 /// - they are farther apart than gap_m plus the step of the beams at their range, or
 /// - more than two beams between them have no foreground.
 ///

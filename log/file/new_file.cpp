@@ -149,13 +149,15 @@ std::unique_ptr<SQLite::Database> new_file(const fs::path& path, const LogKind& 
 
 bool fold(SQLite::Database& database) {
   database.setBusyTimeout(kFoldTimeout_ms);
+  bool folded = false;
+  // Another reader or writer stops the last step alone: the rows that it does not hold are in the file by then.
   for (const char* const step :
        {"PRAGMA optimize;", "PRAGMA wal_checkpoint(TRUNCATE);", "PRAGMA journal_mode = DELETE;"}) {
     const int code = database.tryExec(step);
-    if ((code & 0xFF) == SQLITE_BUSY) return false;
-    if (code != SQLITE_OK) throw SQLite::Exception(database.getHandle(), code);
+    if (code != SQLITE_OK && (code & 0xFF) != SQLITE_BUSY) throw SQLite::Exception(database.getHandle(), code);
+    folded = code == SQLITE_OK;
   }
-  return true;
+  return folded;
 }
 
 void stoppable(SQLite::Database& database, const std::function<bool()>& go_on, const std::function<void()>& work) {

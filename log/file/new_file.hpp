@@ -35,7 +35,7 @@ bool is_blank(SQLite::Database& database);
 std::unique_ptr<SQLite::Database> new_file(const std::filesystem::path& path, const LogKind& kind,
                                            const std::function<void(SQLite::Database&)>& create);
 
-/// Folds the write-ahead log into the file. False: a reader holds it, so that it stays beside the file.
+/// Folds the write-ahead log into the file. False: somebody reads or writes, so that it stays beside the file.
 bool fold(SQLite::Database& database);
 
 /// Thrown where whoever is told of the progress says to stop: no error, and no file is kept.

@@ -309,6 +309,24 @@ TEST_F(LogWriter, OfTwoThatBeginAtOnceOneHasTheFileAndKeepsIt) {
   }
 }
 
+TEST_F(LogWriter, AnotherThatHoldsTheLockIsNoFailureAndTheRowsComeIntoTheFile) {
+  const auto open = [&] {
+    return SQLite::Database{path("held.db").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE};
+  };
+  SQLite::Database ours = open();
+  ours.exec(
+      "PRAGMA journal_mode = WAL; CREATE TABLE rows (x); CREATE INDEX by_x ON rows (x); INSERT INTO rows VALUES (1)");
+  EXPECT_EQ(ours.execAndGet("SELECT count(*) FROM rows WHERE x = 1").getInt(), 1);
+  SQLite::Database other = open();
+  other.exec("BEGIN IMMEDIATE");
+  EXPECT_FALSE(log::fold(ours));
+  std::filesystem::copy_file(path("held.db"), path("copy.db"));
+  EXPECT_EQ(SQLite::Database{path("copy.db").string()}.execAndGet("SELECT count(*) FROM rows").getInt(), 1);
+  other.exec("ROLLBACK");
+  { const SQLite::Database closed{std::move(other)}; }
+  EXPECT_TRUE(log::fold(ours));
+}
+
 TEST_F(LogWriter, ALogThatIsDeletedOrRenamedMeanwhileIsWrittenAgain) {
   for (const bool deleted : {true, false}) {
     const auto log = path(deleted ? "deleted.db" : "renamed.db");
